@@ -1,0 +1,28 @@
+# What every target of this project is built with. Link rinkaku_build privately.
+add_library(rinkaku_build INTERFACE)
+target_include_directories(rinkaku_build INTERFACE "${PROJECT_SOURCE_DIR}")
+target_compile_options(rinkaku_build INTERFACE
+  -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Woverloaded-virtual -Wimplicit-fallthrough -Werror)
+
+find_program(CCACHE ccache)
+if(CCACHE)
+  set(CMAKE_CXX_COMPILER_LAUNCHER "${CCACHE}")
+endif()
+
+if(RINKAKU_SANITIZE)
+  target_compile_options(rinkaku_build INTERFACE
+    -fsanitize=${RINKAKU_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
+  target_link_options(rinkaku_build INTERFACE -fsanitize=${RINKAKU_SANITIZE})
+  target_compile_definitions(rinkaku_build INTERFACE RINKAKU_SANITIZED=1)
+  if(RINKAKU_SANITIZE MATCHES "address")
+    # GCC 12 reports false maybe-uninitialized in library headers under -fsanitize=address.
+    target_compile_options(rinkaku_build INTERFACE -Wno-maybe-uninitialized)
+  endif()
+endif()
+
+# rinkaku_library(NAME SOURCES... ): a static library of this project.
+function(rinkaku_library name)
+  add_library(${name} STATIC ${ARGN})
+  target_link_libraries(${name} PRIVATE rinkaku_build)
+  target_include_directories(${name} PUBLIC "${PROJECT_SOURCE_DIR}")
+endfunction()
