@@ -4,6 +4,11 @@ target_include_directories(rinkaku_build INTERFACE "${PROJECT_SOURCE_DIR}")
 target_compile_options(rinkaku_build INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Woverloaded-virtual -Wimplicit-fallthrough -Werror)
 
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
+  # GCC 12 warns of overlapping copies in "literal" + std::string where there are none (GCC bug 105651).
+  target_compile_options(rinkaku_build INTERFACE -Wno-restrict)
+endif()
+
 find_program(CCACHE ccache)
 if(CCACHE)
   set(CMAKE_CXX_COMPILER_LAUNCHER "${CCACHE}")

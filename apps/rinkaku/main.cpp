@@ -1,0 +1,170 @@
+#include <algorithm>
+#include <cctype>
+#include <csignal>
+#include <cstdio>
+#include <exception>
+#include <functional>
+#include <string>
+
+#include <CLI/CLI.hpp>
+
+#include "apps/rinkaku/commands.h"
+#include "pipeline/frame/error.h"
+
+namespace {
+
+using namespace rinkaku::app;
+
+constexpr int input_is_wrong = 2, failed_at_run_time = 1;
+
+// The commands' options; each command's function runs after the whole line was understood.
+struct CommandLine {
+  CLI::App app{"rinkaku draws CG objects into filmed video, in front of and behind what was filmed, as a drawing."};
+  std::function<int()> run;
+  RenderCall render;
+  ExplainCall explain;
+  InspectCall inspect;
+  BoardCall board;
+  CalibrateCall calibrate;
+
+  CommandLine() {
+    app.name("rinkaku");
+    app.require_subcommand(1);
+    app.set_version_flag("--version", "rinkaku " RINKAKU_VERSION);
+    app.footer("rinkaku COMMAND --help shows a command's options with an example.");
+    add_render();
+    add_explain();
+    add_inspect();
+    add_board();
+    add_calibrate();
+  }
+
+  CLI::App* add(const char* name, const char* description, const char* example, std::function<int()> command) {
+    CLI::App* sub = app.add_subcommand(name, description);
+    sub->footer(std::string("Example:\n  ") + example);
+    sub->callback([this, command] { run = command; });
+    return sub;
+  }
+  static void add_json(CLI::App* sub, bool& json) {
+    sub->add_flag("--json", json, "Print one JSON object on standard output, and nothing else there");
+  }
+  static void add_force(CLI::App* sub, bool& force) {
+    sub->add_flag("--force", force, "Write over outputs that exist");
+  }
+
+  void add_render() {
+    RenderCall& c = render;
+    CLI::App* sub =
+        add("render", "Render a scene into a video or an image sequence.",
+            "rinkaku render recordings/desk/scene.toml -o desk.mp4", [&c] { return rinkaku::app::render(c); });
+    sub->add_option("SCENE", c.scene, "Scene file (TOML)")->required();
+    sub->add_option("--input", c.input, "Video to use in place of the scene's");
+    sub->add_option("-o,--output", c.output,
+                    "Video file, image pattern such as out/%04d.png, or - for standard output (see --format)");
+    sub->add_option("--frames", c.frames,
+                    "Only the frames A:B, counted from 0, B not included; A: and :B are fine too");
+    sub->add_option("--layers", c.layers, "Folder for the CG layer of each frame: PNG with straight alpha");
+    sub->add_option("--timings", c.timings, "File for each stage's times (JSON)");
+    sub->add_option("--codec", c.codec,
+                    "Encoder: h264, mpeg4, ffv1, ffvhuff, or any name FFmpeg knows; else by the ending");
+    sub->add_option("--bit-rate", c.bit_rate, "Bits per second; the encoder's good default quality if not given")
+        ->check(CLI::Range(std::int64_t{1000}, std::int64_t{10'000'000'000}));
+    sub->add_option("--format", c.format, "What goes to standard output")->check(CLI::IsMember({"y4m", "raw"}));
+    add_force(sub, c.force);
+    add_json(sub, c.json);
+  }
+
+  void add_explain() {
+    ExplainCall& c = explain;
+    CLI::App* sub = add("explain", "Tell which stages a scene runs and why, and which it leaves out and why.",
+                        "rinkaku explain recordings/desk/scene.toml", [&c] { return rinkaku::app::explain(c); });
+    sub->add_option("SCENE", c.scene, "Scene file (TOML)")->required();
+    sub->add_flag("--layers", c.layers, "As if rendered with --layers");
+    sub->add_flag("--dot", c.dot, "Print the plan as a Graphviz graph");
+    add_json(sub, c.json);
+  }
+
+  void add_inspect() {
+    InspectCall& c = inspect;
+    CLI::App* sub = add("inspect", "Look a mesh over: size, closed?, manifold?, slivers, winding, skins, clips.",
+                        "rinkaku inspect cat.glb", [&c] { return rinkaku::app::inspect(c); });
+    sub->add_option("MESH", c.mesh, "Mesh file (glTF, GLB, VRM, OBJ, PLY, OFF, STL, FBX, ...)")->required();
+    add_json(sub, c.json);
+  }
+
+  void add_board() {
+    BoardCall& c = board;
+    CLI::App* sub = add("board", "Make a page to print from a board file, true to scale.",
+                        "rinkaku board board.toml -o board.pdf", [&c] { return rinkaku::app::board(c); });
+    sub->add_option("BOARD", c.board, "Board file (TOML)")->required();
+    sub->add_option("-o,--output", c.output, "PDF to write")->required();
+    sub->add_option("--page", c.page,
+                    "A4, A3, A2, A1, A0, letter, or e.g. 200x150 in millimetres; the smallest A that fits");
+    add_force(sub, c.force);
+    add_json(sub, c.json);
+  }
+
+  void add_calibrate() {
+    CalibrateCall& c = calibrate;
+    CLI::App* sub = add("calibrate", "Measure a camera from videos of a board that is turned about before it.",
+                        "rinkaku calibrate board.mp4 --board chessboard.toml -o camera.yml",
+                        [&c] { return rinkaku::app::calibrate(c); });
+    sub->add_option("VIDEO", c.videos, "One or more videos or image sequences of one camera")->required();
+    sub->add_option("--board", c.board, "Board file (TOML)")->required();
+    sub->add_option("-o,--output", c.output, "Camera file to write (OpenCV YAML)")->required();
+    add_force(sub, c.force);
+    add_json(sub, c.json);
+  }
+};
+
+int say(std::string line, int status) {
+  // What the user typed may hold line ends.
+  std::replace_if(
+      line.begin(), line.end(), [](unsigned char c) { return std::iscntrl(c) != 0; }, ' ');
+  std::fprintf(stderr, "rinkaku: %s\n", line.c_str());
+  return status;
+}
+
+// CLI11 would only say that a command is missing.
+void check_command(CLI::App& app, int argc, char** argv) {
+  const char* remedy = "give render, explain, inspect, board or calibrate, or see rinkaku --help";
+  if (argc < 2) throw rinkaku::input_error("", "no command was given", remedy);
+  const std::string command = argv[1];
+  const auto named_so = [&command](const CLI::App* sub) { return sub->get_name() == command; };
+  const std::vector<CLI::App*> known = app.get_subcommands({});
+  if (command.starts_with("-") || std::any_of(known.begin(), known.end(), named_so)) return;
+  throw rinkaku::input_error("", "there is no command '" + command + "'", remedy);
+}
+
+// Output that could not be written is an error where it is written, and the unfinished file is taken away.
+void survive_failing_writes() {
+  std::signal(SIGXFSZ, SIG_IGN);
+  std::signal(SIGPIPE, SIG_IGN);
+}
+
+int finish_output(int status) {
+  if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return status;
+  return say("standard output: can't be written", failed_at_run_time);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  survive_failing_writes();
+  CommandLine line;
+  try {
+    check_command(line.app, argc, argv);
+    line.app.parse(argc, argv);
+    return finish_output(line.run());
+  } catch (const CLI::Success& help) {
+    return line.app.exit(help);
+  } catch (const CLI::ParseError& wrong) {
+    return say(std::string(wrong.what()) + "; see rinkaku --help", input_is_wrong);
+  } catch (const rinkaku::Error& error) {
+    return say(error.what(), error.exit_status());
+  } catch (const std::bad_alloc&) {
+    return say("out of memory; close other programs, or use a smaller picture or mesh", failed_at_run_time);
+  } catch (const std::exception& unexpected) {
+    return say(std::string("unexpected: ") + unexpected.what(), failed_at_run_time);
+  }
+}

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+
+namespace rinkaku::app {
+
+/// A bar on standard error that grows as frames are done; silent where standard error is no terminal.
+class ProgressBar {
+ public:
+  ProgressBar();
+  /// Takes the bar off the line.
+  ~ProgressBar();
+  ProgressBar(const ProgressBar&) = delete;
+  ProgressBar& operator=(const ProgressBar&) = delete;
+
+  /// `total` 0 where it is not known. Redraws ten times a second at most.
+  void update(std::int64_t done, std::int64_t total);
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  bool on_terminal_;
+  bool drawn_ = false;
+  Clock::time_point start_, last_;
+};
+
+}  // namespace rinkaku::app

@@ -1,0 +1,150 @@
+#include "mesh/contour.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <glm/geometric.hpp>
+
+#include "mesh/bounds.h"
+
+namespace rinkaku::mesh {
+
+ContourFinder::ContourFinder(const Mesh& mesh, const Topology& topology, const ContourOptions& options)
+    : options_(options),
+      triangles_(mesh.triangles),
+      non_manifold_faces_(topology.non_manifold_faces),
+      non_manifold_first_(topology.non_manifold_first) {
+  const Sphere sphere = bounding_sphere(mesh.positions);
+  origin_ = sphere.centre;
+  radius_ = sphere.radius;
+
+  const std::size_t count = mesh.triangles.size();
+  for (auto* component : {&nx_, &ny_, &nz_, &offset_}) component->resize(count);
+  for (std::size_t f = 0; f < count; ++f) {
+    const glm::uvec3& face = topology.faces[f];
+    const glm::dvec3 a = glm::dvec3(topology.points[face.x]);
+    glm::dvec3 normal = glm::cross(glm::dvec3(topology.points[face.y]) - a, glm::dvec3(topology.points[face.z]) - a);
+    const double length = glm::length(normal);
+    // The topology knows which faces have no area of their own; their plane is their neighbour's.
+    const glm::dvec3 stored(topology.face_normals[f]);
+    normal = length > 0 && glm::dot(normal, stored) > 0.5 * length ? normal / length : stored;
+    nx_[f] = static_cast<float>(normal.x);
+    ny_[f] = static_cast<float>(normal.y);
+    nz_[f] = static_cast<float>(normal.z);
+    offset_[f] = static_cast<float>(glm::dot(normal, a - origin_));
+  }
+
+  two_sided_.resize(count);
+  for (const Part& part : mesh.parts) {
+    parts_.push_back({part.first_triangle, part.triangle_count});
+    const bool material = mesh.materials[part.material].two_sided;
+    for (std::uint32_t f = part.first_triangle; f < part.first_triangle + part.triangle_count; ++f) {
+      two_sided_[f] = material || topology.component_two_sided[topology.component[f]] != 0;
+    }
+  }
+  const std::uint32_t two_faced = topology.consistent_edges + topology.inconsistent_edges;
+  for (std::uint32_t e = 0; e < two_faced; ++e) {
+    const Edge& edge = topology.edges[e];
+    (e < topology.consistent_edges ? consistent_ : inconsistent_).push_back({edge.face0, edge.face1});
+  }
+  first_non_manifold_ = two_faced + topology.boundary_edges;
+
+  for (auto* flags : {&front_, &seen_front_, &seen_back_}) flags->resize(count);
+  // Lists are written without branches, one entry past the last kept one.
+  front_indices_.resize(count * 3 + 3);
+  back_indices_.resize(count * 3 + 3);
+  contour_.resize(topology.edges.size() + 1);
+  front_parts_.resize(parts_.size());
+}
+
+const Contour& ContourFinder::find(const glm::dvec4& eye) {
+  classify(eye);
+  list_triangles();
+  list_edges();
+  return result_;
+}
+
+void ContourFinder::classify(const glm::dvec4& eye) {
+  const double sign = eye.w < 0 ? -1.0 : 1.0;
+  glm::dvec3 towards = (glm::dvec3(eye) - eye.w * origin_) * sign;
+  double w = eye.w * sign;
+  const double scale = std::max(glm::length(towards), w * radius_);
+  if (scale > 0) {
+    towards /= scale;
+    w /= scale;
+  }
+  const auto ex = static_cast<float>(towards.x);
+  const auto ey = static_cast<float>(towards.y);
+  const auto ez = static_cast<float>(towards.z);
+  const auto ew = static_cast<float>(w);
+  // No point of the mesh is further from the eye than this, so the margin is an angle at least as large as asked for.
+  const auto margin = static_cast<float>(options_.margin * (glm::length(towards) + w * radius_));
+
+  const std::size_t count = triangles_.size();
+  const float* nx = nx_.data();
+  const float* ny = ny_.data();
+  const float* nz = nz_.data();
+  const float* offset = offset_.data();
+  const std::uint8_t* two_sided = two_sided_.data();
+  std::uint8_t* front = front_.data();
+  std::uint8_t* seen_front = seen_front_.data();
+  std::uint8_t* seen_back = seen_back_.data();
+  for (std::size_t f = 0; f < count; ++f) {
+    const float distance = nx[f] * ex + ny[f] * ey + nz[f] * ez - offset[f] * ew;
+    front[f] = distance > 0 ? 1 : 0;
+    seen_front[f] = static_cast<std::uint8_t>((distance > -margin ? 1 : 0) | two_sided[f]);
+    seen_back[f] = distance < margin ? 1 : 0;
+  }
+  result_.front = front_;
+}
+
+void ContourFinder::list_triangles() {
+  std::uint32_t* front = front_indices_.data();
+  std::uint32_t* back = back_indices_.data();
+  const auto append = [](std::uint32_t*& to, const glm::uvec3& triangle, std::uint8_t keep) {
+    to[0] = triangle.x;
+    to[1] = triangle.y;
+    to[2] = triangle.z;
+    to += 3 * std::ptrdiff_t{keep};
+  };
+  for (std::size_t p = 0; p < parts_.size(); ++p) {
+    const std::uint32_t* part_start = front;
+    for (std::uint32_t f = parts_[p].first; f < parts_[p].first + parts_[p].count; ++f) {
+      append(front, triangles_[f], seen_front_[f]);
+      append(back, triangles_[f], seen_back_[f]);
+    }
+    front_parts_[p] = {static_cast<std::uint32_t>(part_start - front_indices_.data()),
+                       static_cast<std::uint32_t>(front - part_start)};
+  }
+  result_.front_indices = {front_indices_.data(), front};
+  result_.back_indices = {back_indices_.data(), back};
+  result_.front_parts = front_parts_;
+}
+
+void ContourFinder::list_edges() {
+  const std::uint8_t* front = front_.data();
+  std::uint32_t* out = contour_.data();
+  std::uint32_t edge = 0;
+  for (const EdgeFaces& faces : consistent_) {
+    *out = edge++;
+    out += front[faces.face0] ^ front[faces.face1];
+  }
+  for (const EdgeFaces& faces : inconsistent_) {
+    *out = edge++;
+    out += 1 ^ front[faces.face0] ^ front[faces.face1];
+  }
+  for (; edge < first_non_manifold_; ++edge) *out++ = edge;
+  for (std::size_t run = 0; run + 1 < non_manifold_first_.size(); ++run, ++edge) {
+    // A face lies on the edge's left if it is seen from the front and runs along it, or neither.
+    int left = 0;
+    int right = 0;
+    for (std::uint32_t k = non_manifold_first_[run]; k < non_manifold_first_[run + 1]; ++k) {
+      const EdgeFace& of = non_manifold_faces_[k];
+      ((front[of.face] != 0) != of.reversed ? left : right)++;
+    }
+    if (left == 0 || right == 0) *out++ = edge;
+  }
+  result_.edges = {contour_.data(), out};
+}
+
+}  // namespace rinkaku::mesh

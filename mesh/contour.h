@@ -1,0 +1,82 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+
+#include "mesh/mesh.h"
+#include "mesh/topology.h"
+
+namespace rinkaku::mesh {
+
+struct ContourOptions {
+  /// Sine of the angle to the line of sight under which a face counts as seen from both sides, so that one which a
+  /// rasteriser takes for front-facing is never left out of the front triangles (nor of the back ones).
+  double margin = 1e-3;
+};
+
+/// Indices of one part of the mesh within a list.
+struct IndexRange {
+  std::uint32_t first = 0;
+  std::uint32_t count = 0;
+};
+
+/// What one eye sees of a mesh. The spans live until the finder's next find() or its end.
+struct Contour {
+  std::span<const std::uint8_t> front;  ///< per face: 1 if the eye is strictly on its outer side
+  std::span<const std::uint32_t>
+      front_indices;                        ///< vertices, three a triangle: front faces, doubtful and two-sided ones
+  std::span<const IndexRange> front_parts;  ///< per part of the mesh: its run within front_indices
+  std::span<const std::uint32_t> back_indices;  ///< as above: faces that turn their back, and doubtful ones
+  std::span<const std::uint32_t> edges;         ///< the contour, as indices into Topology::edges
+};
+
+/// Finds which faces an eye sees from the front and where the contour runs.
+///
+/// Everything is in the mesh's own coordinates; the eye is homogeneous, (x, y, z, 1) or (direction to it, 0).
+/// A contour edge is one all of whose faces lie, as the eye sees it, on one side of it, whatever their winding: an edge
+/// between a front and a back face, every boundary edge, an inconsistently wound edge whose faces face alike, and a
+/// non-manifold edge with no face beyond it. On a closed manifold mesh they form closed loops.
+/// Two-sided faces (of components that need it, and of two-sided materials) are always among the front triangles.
+/// Preconditions: `topology` was made of `mesh`; `mesh` may go away after construction, `topology` as well.
+/// Not thread-safe: one finder a thread. find() allocates nothing.
+/// Cost of find(): about 0.1 ms for 23,000 triangles on one core.
+class ContourFinder {
+ public:
+  ContourFinder(const Mesh& mesh, const Topology& topology, const ContourOptions& options = {});
+
+  const Contour& find(const glm::dvec4& eye);
+  const Contour& find(const glm::dvec3& eye) { return find(glm::dvec4(eye, 1.0)); }
+
+ private:
+  struct EdgeFaces {
+    std::uint32_t face0, face1;
+  };
+  void classify(const glm::dvec4& eye);
+  void list_triangles();
+  void list_edges();
+
+  ContourOptions options_;
+  glm::dvec3 origin_{0};  ///< planes are relative to it
+  double radius_ = 0;
+  // Planes as one array a component: normal and offset, the outer side positive.
+  std::vector<float> nx_, ny_, nz_, offset_;
+  std::vector<std::uint8_t> two_sided_;
+  std::vector<glm::uvec3> triangles_;
+  std::vector<IndexRange> parts_;  ///< in triangles
+  std::vector<EdgeFaces> consistent_, inconsistent_;
+  std::uint32_t first_non_manifold_ = 0;
+  std::vector<EdgeFace> non_manifold_faces_;
+  std::vector<std::uint32_t> non_manifold_first_;
+
+  // Scratch, sized once.
+  std::vector<std::uint8_t> front_, seen_front_, seen_back_;
+  std::vector<std::uint32_t> front_indices_, back_indices_, contour_;
+  std::vector<IndexRange> front_parts_;
+  Contour result_;
+};
+
+}  // namespace rinkaku::mesh

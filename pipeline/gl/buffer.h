@@ -1,0 +1,41 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <span>
+
+#include "pipeline/gl/handle.h"
+
+namespace rinkaku::gl {
+
+/// Memory on the GL side that is filled once.
+class StaticBuffer {
+ public:
+  StaticBuffer() = default;
+  explicit StaticBuffer(std::span<const std::byte> bytes);
+  GLuint name() const { return handle_.name(); }
+
+ private:
+  BufferHandle handle_;
+};
+
+/// Memory on the GL side that is filled anew every frame: several buffers in turn, so that writing does not wait for
+/// drawing that still reads the last one, and nothing is allocated once they are large enough.
+class StreamBuffer {
+ public:
+  StreamBuffer();
+  /// Fills the next buffer and makes it the current one.
+  void write(std::span<const std::byte> bytes);
+  /// The current buffer; another one after each write().
+  GLuint name() const { return ring_[current_].handle.name(); }
+
+ private:
+  struct Slot {
+    BufferHandle handle;
+    std::size_t capacity_bytes = 0;
+  };
+  std::array<Slot, 3> ring_;
+  std::size_t current_ = 0;
+};
+
+}  // namespace rinkaku::gl

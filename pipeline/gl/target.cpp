@@ -1,0 +1,65 @@
+#include "pipeline/gl/target.h"
+
+#include <algorithm>
+#include <string>
+
+#include "pipeline/frame/error.h"
+#include "pipeline/gl/count.h"
+
+namespace rinkaku::gl {
+namespace {
+
+GLuint create_framebuffer() {
+  GLuint name = 0;
+  glCreateFramebuffers(1, &name);
+  return name;
+}
+
+RenderbufferHandle storage(GLenum format, int width_px, int height_px) {
+  GLuint name = 0;
+  glCreateRenderbuffers(1, &name);
+  RenderbufferHandle handle(name);
+  glNamedRenderbufferStorage(name, format, width_px, height_px);
+  return handle;
+}
+
+// Sizes are rounded up so that an object that comes nearer does not ask for new storage every frame.
+int rounded(int px) { return (px + 127) / 128 * 128; }
+
+}  // namespace
+
+Target::Target() : framebuffer_(create_framebuffer()) { ++counters().targets; }
+
+void Target::begin(int width_px, int height_px) {
+  if (width_px > width_px_ || height_px > height_px_) {
+    GLint most = 0;
+    glGetIntegerv(GL_MAX_RENDERBUFFER_SIZE, &most);
+    width_px_ = std::min(most, std::max(width_px_, rounded(width_px)));
+    height_px_ = std::min(most, std::max(height_px_, rounded(height_px)));
+    if (width_px > width_px_ || height_px > height_px_) {
+      throw runtime_failure("OpenGL", "a picture of " + std::to_string(width_px) + "x" + std::to_string(height_px) +
+                                          " pixels is larger than this driver draws");
+    }
+    colour_ = storage(GL_RGBA8, width_px_, height_px_);
+    depth_ = storage(GL_DEPTH_COMPONENT32F, width_px_, height_px_);
+    glNamedFramebufferRenderbuffer(framebuffer_.name(), GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, colour_.name());
+    glNamedFramebufferRenderbuffer(framebuffer_.name(), GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, depth_.name());
+    if (glCheckNamedFramebufferStatus(framebuffer_.name(), GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE) {
+      throw runtime_failure("OpenGL", "the driver can't draw into RGBA8 with 32-bit float depth");
+    }
+  }
+  glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.name());
+  glViewport(0, 0, width_px, height_px);
+  glDepthMask(GL_TRUE);
+  glClearColor(0, 0, 0, 0);
+  glClearDepth(0);
+  glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+}
+
+void Target::read(int width_px, int height_px, std::uint8_t* rgba) const {
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer_.name());
+  glPixelStorei(GL_PACK_ALIGNMENT, 1);
+  glReadPixels(0, 0, width_px, height_px, GL_RGBA, GL_UNSIGNED_BYTE, rgba);
+}
+
+}  // namespace rinkaku::gl

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "pipeline/gl/handle.h"
+
+namespace rinkaku::gl {
+
+/// An RGBA8 picture to sample from: mipmapped, trilinear, repeating.
+class Texture {
+ public:
+  Texture() = default;
+  /// `rgba`: width * height * 4 bytes, rows from the top.
+  Texture(int width_px, int height_px, std::span<const std::uint8_t> rgba);
+  GLuint name() const { return handle_.name(); }
+
+ private:
+  TextureHandle handle_;
+};
+
+}  // namespace rinkaku::gl

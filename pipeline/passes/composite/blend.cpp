@@ -1,0 +1,203 @@
+#include "pipeline/passes/composite/blend.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cassert>
+#include <cstring>
+#include <utility>
+
+#include "pipeline/passes/composite/colour_matrix.h"
+
+namespace rinkaku::passes {
+namespace {
+
+// The layer's sums over the pixels of each block of one row of blocks: R, G, B, A, in 0..255 a pixel.
+struct BlockRow {
+  const std::int32_t* red;
+  const std::int32_t* green;
+  const std::int32_t* blue;
+  const std::int32_t* alpha;
+  int blocks;
+};
+
+// Adds one row of premultiplied pixels to sums, pixel by pixel.
+void add_row(const std::uint8_t* rgba, int pixels, std::int32_t* red, std::int32_t* green, std::int32_t* blue,
+             std::int32_t* alpha) {
+  static_assert(std::endian::native == std::endian::little);
+  for (int i = 0; i < pixels; ++i) {
+    std::uint32_t pixel;  // whole words, so that the compiler can take several at a time
+    std::memcpy(&pixel, rgba + 4 * i, 4);
+    red[i] += static_cast<std::int32_t>(pixel & 255);
+    green[i] += static_cast<std::int32_t>(pixel >> 8 & 255);
+    blue[i] += static_cast<std::int32_t>(pixel >> 16 & 255);
+    alpha[i] += static_cast<std::int32_t>(pixel >> 24);
+  }
+}
+
+// Adds up the pixels of each block, in place.
+void add_within_blocks(std::int32_t* sums, int blocks, int log2_block) {
+  if (log2_block == 1) {
+    for (int b = 0; b < blocks; ++b) sums[b] = sums[2 * b] + sums[2 * b + 1];
+    return;
+  }
+  for (int b = 0; b < blocks; ++b) {
+    std::int32_t sum = 0;
+    for (int k = 0; k < 1 << log2_block; ++k) sum += sums[(b << log2_block) + k];
+    sums[b] = sum;
+  }
+}
+
+// The columns of a row that hold anything: first, and one past the last.
+std::pair<int, int> covered(const std::uint8_t* rgba, int pixels) {
+  int first = 0, last = pixels;
+  while (first < last && rgba[4 * first + 3] == 0) ++first;
+  while (last > first && rgba[4 * last - 1] == 0) --last;
+  return {first, last};
+}
+
+// out = colour + (1 - alpha) * plate for one component of one row of blocks; `scale` is opacity / pixels of a block.
+// Alpha 0 gives plate * 1 + 0, exactly.
+template <typename Load, typename Store>
+void blend_row(const BlockRow& row, const ComponentWeights& weights, float scale, float largest, Load load,
+               Store store) {
+  const float red = weights.red * scale, green = weights.green * scale, blue = weights.blue * scale;
+  const float alpha = weights.alpha * scale, cover = -scale * (1.0f / 255.0f);
+  for (int i = 0; i < row.blocks; ++i) {
+    const float a = static_cast<float>(row.alpha[i]);
+    const float colour = red * static_cast<float>(row.red[i]) + green * static_cast<float>(row.green[i]) +
+                         blue * static_cast<float>(row.blue[i]) + alpha * a;
+    const float value = colour + (1.0f + cover * a) * load(i) + 0.5f;
+    store(i, static_cast<int>(std::min(std::max(value, 0.0f), largest + 0.5f)));
+  }
+}
+
+void blend_component_row(std::uint8_t* samples, const Component& component, bool big_endian, const BlockRow& row,
+                         const ComponentWeights& weights, float scale) {
+  const float largest = static_cast<float>((1 << component.depth_bits) - 1);
+  if (component.depth_bits + component.shift_bits <= 8 && component.shift_bits == 0) {
+    if (component.step_bytes == 1) {
+      blend_row(
+          row, weights, scale, largest, [=](int i) { return static_cast<float>(samples[i]); },
+          [=](int i, int value) { samples[i] = static_cast<std::uint8_t>(value); });
+    } else {
+      const int step = component.step_bytes;
+      blend_row(
+          row, weights, scale, largest, [=](int i) { return static_cast<float>(samples[i * step]); },
+          [=](int i, int value) { samples[i * step] = static_cast<std::uint8_t>(value); });
+    }
+    return;
+  }
+  const bool swap = big_endian != (std::endian::native == std::endian::big);
+  const int step = component.step_bytes, shift = component.shift_bits;
+  const int mask = ((1 << component.depth_bits) - 1) << shift;
+  const bool two_bytes = component.depth_bits + component.shift_bits > 8;
+  auto read = [=](int i) -> int {
+    if (!two_bytes) return samples[i * step];
+    std::uint16_t word;
+    std::memcpy(&word, samples + i * step, 2);
+    return swap ? static_cast<std::uint16_t>(word << 8 | word >> 8) : word;
+  };
+  auto write = [=](int i, int bits) {
+    if (!two_bytes) {
+      samples[i * step] = static_cast<std::uint8_t>(bits);
+      return;
+    }
+    auto word = static_cast<std::uint16_t>(bits);
+    if (swap) word = static_cast<std::uint16_t>(word << 8 | word >> 8);
+    std::memcpy(samples + i * step, &word, 2);
+  };
+  // Bits beside the component's own (packed formats share words) stay as they are.
+  blend_row(
+      row, weights, scale, largest, [=](int i) { return static_cast<float>((read(i) & mask) >> shift); },
+      [=](int i, int value) { write(i, (read(i) & ~mask) | (value << shift)); });
+}
+
+}  // namespace
+
+bool can_blend(const PixelFormat& pixels) {
+  if (pixels.components < 1 || pixels.components > 4) return false;
+  for (int c = 0; c < pixels.components; ++c) {
+    const Component& component = pixels.component[c];
+    const int bits = component.depth_bits + component.shift_bits;
+    if (component.depth_bits < 1 || component.depth_bits > 16 || bits > 16 || component.step_bytes < 1) return false;
+  }
+  return true;
+}
+
+void Blender::blend(Frame& frame, const Layer& layer, double opacity_wish) {
+  assert(frame.writable && can_blend(frame.format.pixels));
+  const PictureFormat& format = frame.format;
+  const PixelFormat& pixels = format.pixels;
+  const PixelRect& rect = layer.rect;
+  assert(rect == intersection(rect, {0, 0, format.width_px, format.height_px}));
+  if (rect.empty() || opacity_wish <= 0) return;
+  const float opacity = static_cast<float>(std::min(opacity_wish, 1.0));
+  const std::array<ComponentWeights, 4> weights = component_weights(format);
+
+  // Components with the same grid share their sums: luma (and alpha) first, then chroma.
+  for (int chroma = 0; chroma < 2; ++chroma) {
+    const bool chroma_grid = chroma == 1;
+    const int log2_w = chroma_grid ? pixels.log2_chroma_width : 0;
+    const int log2_h = chroma_grid ? pixels.log2_chroma_height : 0;
+    std::array<int, 4> member{};
+    int members = 0;
+    for (int c = 0; c < pixels.components; ++c) {
+      if (format.is_chroma(c) == chroma_grid) member[members++] = c;
+    }
+    if (members == 0) continue;
+
+    // Room for a row of blocks, pixel by pixel.
+    const std::size_t row_pixels = static_cast<std::size_t>(rect.width_px) + (std::size_t{2} << log2_w);
+    sums_.resize(row_pixels * 4);
+    std::int32_t* const red = sums_.data();
+    std::int32_t* const green = red + row_pixels;
+    std::int32_t* const blue = green + row_pixels;
+    std::int32_t* const alpha = blue + row_pixels;
+
+    for (int row = rect.y_px >> log2_h; row <= (rect.bottom_px() - 1) >> log2_h; ++row) {
+      const int top = row << log2_h, bottom = std::min((row + 1) << log2_h, format.height_px);
+      const int first_y = std::max(top, rect.y_px), end_y = std::min(bottom, rect.bottom_px());
+      auto pixels_of = [&](int y) {
+        return layer.rgba.data() + static_cast<std::size_t>(y - rect.y_px) * rect.width_px * 4;
+      };
+      int first = rect.width_px, last = 0;
+      for (int y = first_y; y < end_y; ++y) {
+        const auto [row_first, row_last] = covered(pixels_of(y), rect.width_px);
+        if (row_first == row_last) continue;
+        first = std::min(first, row_first), last = std::max(last, row_last);
+      }
+      if (first >= last) continue;
+      const int first_block = (rect.x_px + first) >> log2_w;
+      const int blocks = ((rect.x_px + last - 1) >> log2_w) - first_block + 1;
+      const int in_block = rect.x_px + first - (first_block << log2_w);
+      for (std::int32_t* sums : {red, green, blue, alpha}) std::fill_n(sums, blocks << log2_w, 0);
+      for (int y = first_y; y < end_y; ++y) {
+        add_row(pixels_of(y) + std::ptrdiff_t{4} * first, last - first, red + in_block, green + in_block,
+                blue + in_block, alpha + in_block);
+      }
+      if (log2_w > 0) {
+        for (std::int32_t* sums : {red, green, blue, alpha}) add_within_blocks(sums, blocks, log2_w);
+      }
+      // The picture's last block may be cut off by its edge; it is then blended by itself.
+      const int last_width =
+          std::min((first_block + blocks) << log2_w, format.width_px) - ((first_block + blocks - 1) << log2_w);
+      const int whole = last_width == 1 << log2_w ? blocks : blocks - 1;
+      auto blend_blocks = [&](int from, int count, int block_width) {
+        const BlockRow run{red + from, green + from, blue + from, alpha + from, count};
+        const float scale = opacity / static_cast<float>(block_width * (bottom - top));
+        for (int m = 0; m < members; ++m) {
+          const Component& component = pixels.component[member[m]];
+          const Plane& plane = frame.planes[component.plane];
+          std::uint8_t* samples = plane.data + row * plane.stride_bytes + component.offset_bytes +
+                                  static_cast<std::ptrdiff_t>(first_block + from) * component.step_bytes;
+          blend_component_row(samples, component, pixels.big_endian, run, weights[member[m]], scale);
+        }
+      };
+      blend_blocks(0, whole, 1 << log2_w);
+      if (whole < blocks) blend_blocks(whole, 1, last_width);
+    }
+  }
+}
+
+}  // namespace rinkaku::passes

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <glm/mat4x4.hpp>
+#include <glm/vec2.hpp>
+
+#include "pipeline/passes/drawn_object.h"
+#include "pipeline/passes/view.h"
+
+namespace rinkaku::passes {
+
+/// What a pass needs to draw its object into the current target.
+struct DrawCall {
+  const View& view;
+  glm::mat4 clip_from_object;  ///< composed in double, rounded once
+  glm::vec2 viewport_px;
+  float focal_px = 0;  ///< pixels that one unit of the object takes at a distance of 1 m
+};
+
+/// One way of drawing an object: its shading, its outline, ... An object has a list of them.
+///
+/// Edges are smoothed without multisampling: each pass draws its surface pulled in by half a pixel, and then, after all
+/// surfaces of all objects, a feather one pixel wide along the contour that fades from the surface's colour to nothing,
+/// depth-tested against the rest. Coverage is thus right for every straight edge, at the cost of the contour alone.
+/// Needs a current GL context.
+class ObjectPass {
+ public:
+  virtual ~ObjectPass() = default;
+
+  virtual const char* name() const = 0;
+  /// How far beyond the mesh it draws, in pixels.
+  virtual double reach_px() const = 0;
+  /// Draws what is opaque: blending off, depth written.
+  virtual void draw_surface(const DrawCall& call) = 0;
+  /// Draws the feathers: blending on (premultiplied), depth tested but not written, which must hold again afterwards.
+  virtual void draw_edges(const DrawCall& call) = 0;
+};
+
+}  // namespace rinkaku::passes

@@ -1,0 +1,134 @@
+#include "pipeline/passes/toon/toon_pass.h"
+
+#include <algorithm>
+
+#include <glm/geometric.hpp>
+#include <glm/gtc/type_ptr.hpp>
+
+#include "embedded/toon.frag.h"
+#include "embedded/toon.vert.h"
+
+namespace rinkaku::passes {
+namespace {
+
+enum Feature : unsigned {
+  Lit = 1,
+  Textured = 2,
+  VertexColours = 4,
+  Masked = 8,
+  TwoSided = 16,
+  Translucent = 32,
+  Feather = 64,
+  Fine = 128,  // lit by vertex: the mesh is fine enough
+};
+constexpr std::string_view feature_names[] = {"LIT",       "TEXTURED",    "VERTEX_COLOURS", "MASKED",
+                                              "TWO_SIDED", "TRANSLUCENT", "FEATHER",        "FINE"};
+
+// Half a pixel inwards; the feather reaches as far outwards.
+constexpr float inset_px = -0.5f, feather_px = 0.5f;
+
+// Whether lighting the vertices and interpolating gives the same bands as lighting each pixel. Where the normals at a
+// triangle's corners differ by an angle d, the two differ by d^2 / 8, in a triangle over which brightness changes by d:
+// at 15 degrees a band's border is displaced by 3 % of a triangle.
+bool is_fine(const mesh::Mesh& mesh) {
+  constexpr float cos_15_deg = 0.9659f;
+  constexpr double most_coarse = 0.02;  // of all triangles
+  std::size_t coarse = 0;
+  for (const glm::uvec3& t : mesh.triangles) {
+    const glm::vec3 &a = mesh.normals[t.x], &b = mesh.normals[t.y], &c = mesh.normals[t.z];
+    if (std::min({glm::dot(a, b), glm::dot(b, c), glm::dot(c, a)}) < cos_15_deg) ++coarse;
+  }
+  return static_cast<double>(coarse) <= most_coarse * static_cast<double>(mesh.triangles.size());
+}
+
+}  // namespace
+
+ToonPass::ToonPass(DrawnObject& object, const mesh::Mesh& mesh, const ToonOptions& options)
+    : object_(object), options_(options) {
+  options_.light = glm::normalize(options.light);
+  for (const mesh::Texture& t : mesh.textures) textures_.emplace_back(t.width_px, t.height_px, t.rgba);
+  unsigned common = 0;
+  if (options.bands > 0) common |= Lit;
+  if (!mesh.colours.empty()) common |= VertexColours;
+  if (object.two_sided()) common |= TwoSided;
+  // Two-sided surfaces learn only in the fragment shader which side is seen.
+  if ((common & Lit) != 0 && !object.two_sided() && is_fine(mesh)) common |= Fine;
+  for (const mesh::Part& part : mesh.parts) {
+    const mesh::Material& material = mesh.materials[part.material];
+    unsigned features = common;
+    if (material.texture >= 0) features |= Textured;
+    if (material.alpha == mesh::Material::Alpha::Mask) features |= Masked;
+    if (material.alpha == mesh::Material::Alpha::Blend) features |= Translucent;
+    PartStyle style;
+    style.surface = variant(features);
+    style.feather = variant(features | Feather);
+    style.base_colour = material.base_colour;
+    style.alpha_cutoff = material.alpha_cutoff;
+    style.texture = material.texture;
+    style.translucent = material.alpha == mesh::Material::Alpha::Blend;
+    parts_.push_back(style);
+  }
+}
+
+std::size_t ToonPass::variant(unsigned features) {
+  const auto known =
+      std::find_if(variants_.begin(), variants_.end(), [features](const Variant& v) { return v.features == features; });
+  if (known != variants_.end()) return static_cast<std::size_t>(known - variants_.begin());
+  std::vector<std::string_view> defines;
+  for (std::size_t bit = 0; bit < std::size(feature_names); ++bit) {
+    if (features & (1u << bit)) defines.push_back(feature_names[bit]);
+  }
+  const std::string_view vertex[] = {screen_offset_glsl(), embedded::toon_vert};
+  const std::string_view fragment[] = {embedded::toon_frag};
+  Variant v;
+  v.features = features;
+  v.program = gl::Program("toon", defines, vertex, fragment);
+  v.offset = OffsetUniforms(v.program);
+  v.base_colour = v.program.uniform("base_colour");
+  v.alpha_cutoff = v.program.uniform("alpha_cutoff");
+  v.world_from_normal = v.program.uniform("world_from_normal");
+  v.offset_px = v.program.uniform("offset_px");
+  v.edge_coverage = v.program.uniform("edge_coverage");
+  v.flip_back_faces = v.program.uniform("flip_back_faces");
+  const GLuint name = v.program.name();
+  glProgramUniform3fv(name, v.program.uniform("light"), 1, glm::value_ptr(options_.light));
+  glProgramUniform3fv(name, v.program.uniform("shade"), 1, glm::value_ptr(options_.shade_colour));
+  glProgramUniform1f(name, v.program.uniform("bands"), static_cast<float>(options_.bands));
+  glProgramUniform1i(name, v.program.uniform("base_texture"), 0);
+  variants_.push_back(std::move(v));
+  return variants_.size() - 1;
+}
+
+void ToonPass::draw(const DrawCall& call, std::span<const DrawnObject::Run> runs, bool feather, bool translucent) {
+  const Variant* bound = nullptr;
+  for (const DrawnObject::Run& run : runs) {
+    const PartStyle& style = parts_[run.part];
+    if (style.translucent != translucent) continue;
+    const Variant& v = variants_[feather ? style.feather : style.surface];
+    if (&v != bound) {
+      glUseProgram(v.program.name());
+      v.offset.set(call);
+      glUniformMatrix3fv(v.world_from_normal, 1, GL_FALSE, glm::value_ptr(object_.world_from_normal()));
+      const float overlap_px = feather ? object_.last_look().overlap_px : 0;
+      glUniform2f(v.offset_px, inset_px - overlap_px, feather_px);
+      glUniform1f(v.edge_coverage, 1 + overlap_px);
+      glUniform1i(v.flip_back_faces, feather ? 0 : 1);
+      bound = &v;
+    }
+    glUniform4fv(v.base_colour, 1, glm::value_ptr(style.base_colour));
+    glUniform1f(v.alpha_cutoff, style.alpha_cutoff);
+    if (style.texture >= 0) glBindTextureUnit(0, textures_[style.texture].name());
+    glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(run.index_count), GL_UNSIGNED_INT,
+                   reinterpret_cast<const void*>(static_cast<std::uintptr_t>(run.first_index) * sizeof(GLuint)));
+  }
+}
+
+void ToonPass::draw_surface(const DrawCall& call) { draw(call, object_.bind_front(), false, false); }
+
+void ToonPass::draw_edges(const DrawCall& call) {
+  draw(call, object_.bind_contour(), true, false);
+  const bool any = std::any_of(parts_.begin(), parts_.end(), [](const PartStyle& p) { return p.translucent; });
+  if (any) draw(call, object_.bind_front(), false, true);
+}
+
+}  // namespace rinkaku::passes

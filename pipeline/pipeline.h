@@ -1,0 +1,66 @@
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "pipeline/plan.h"
+#include "pipeline/scene.h"
+#include "pipeline/stage_times.h"
+
+namespace rinkaku::pipeline {
+
+/// What the command line says beside the scene; empty values leave the scene's own.
+struct RenderOptions {
+  std::string output{};  ///< a video file, a pattern of images, or "-" for standard output
+  std::string codec{};
+  std::string container{};  ///< "y4m" or "raw" for standard output
+  std::int64_t bit_rate = 0;
+  std::int64_t first_frame = 0;
+  std::int64_t end_frame = std::numeric_limits<std::int64_t>::max();  ///< exclusive
+  std::string layers_folder{};                                        ///< empty: layers are not written
+  bool overwrite = false;
+};
+
+struct StageReport {
+  std::string name;
+  StageTimes times;
+};
+
+struct RenderReport {
+  std::int64_t frames = 0;
+  double seconds = 0;
+  int width_px = 0;
+  int height_px = 0;
+  std::string output;
+  std::int64_t posed_frames = 0;  ///< frames whose camera pose was known
+  std::vector<StageReport> stages;
+  std::vector<std::string> notices;  ///< damage, conversions, lines to be shown to the user
+  bool interrupted = false;
+};
+
+/// Called on the calling thread after each frame: frames done, and how many there will be (0: unknown).
+using Progress = std::function<void(std::int64_t done, std::int64_t total)>;
+
+/// The scene with the options that replace its values, and the camera it names (null if none), checked against each
+/// other.
+struct Prepared {
+  Scene scene;
+  std::optional<CameraModel> camera;
+  Plan plan;
+};
+Prepared prepare(Scene scene, const RenderOptions& options);
+
+/// Renders a scene from its source to its sink; the main job.
+///
+/// Decoding, tracking, drawing and encoding run at the same time, each on a thread of its own (drawing on the calling
+/// one), joined by bounded queues: memory does not grow with the video. Plate, pose and CG of a frame travel together.
+/// `stop` set to true ends it as the end of the video would: what was rendered is kept and whole.
+/// Throws Error; nothing is then left under the output's name.
+RenderReport render(const Prepared& prepared, const RenderOptions& options, const std::atomic<bool>& stop,
+                    const Progress& progress = {});
+
+}  // namespace rinkaku::pipeline

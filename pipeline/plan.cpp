@@ -1,0 +1,192 @@
+#include "pipeline/plan.h"
+
+#include <algorithm>
+#include <set>
+
+namespace rinkaku::pipeline {
+namespace {
+
+struct Facts {
+  const Scene& scene;
+  const CameraModel* camera;
+  const Request& request;
+
+  bool draws() const { return !scene.objects.empty(); }
+  bool composites() const { return scene.output.content == OutputScene::Content::Composite; }
+  template <typename Wanted>
+  std::size_t count(Wanted wanted) const {
+    return static_cast<std::size_t>(std::count_if(scene.objects.begin(), scene.objects.end(), wanted));
+  }
+};
+
+struct Verdict {
+  bool runs;
+  std::string why;
+};
+
+constexpr const char* no_object = "the scene has no [[object]]";
+
+std::string objects(std::size_t n) { return std::to_string(n) + (n == 1 ? " object" : " objects"); }
+
+Verdict decode(const Facts& f) { return {true, "frames come from " + f.scene.plate.input}; }
+
+Verdict track(const Facts& f) {
+  if (!f.scene.track) return {false, "the scene has no [track]"};
+  struct Why {
+    std::string operator()(const MarkerTrack& m) const {
+      return "the camera's pose is found by marker " + std::to_string(m.id) + " of " + m.dictionary;
+    }
+    std::string operator()(const BoardTrack& b) const {
+      return "the camera's pose is found by the board " + b.board.filename().string();
+    }
+    std::string operator()(const PoseFileTrack& p) const {
+      return "the camera's poses are read from " + p.poses.filename().string();
+    }
+    std::string operator()(const LockedTrack&) const { return "the camera stays where the scene puts it"; }
+  };
+  return {true, std::visit(Why{}, f.scene.track->from)};
+}
+
+Verdict smooth(const Facts& f) {
+  if (f.scene.track && std::holds_alternative<LockedTrack>(f.scene.track->from)) {
+    return {false, "the camera stays where it is"};
+  }
+  if (!f.scene.track || !f.scene.track->smoothing.on) return {false, "smoothing is off"};
+  return {true, "the measured poses are smoothed"};
+}
+
+Verdict import(const Facts& f) {
+  if (!f.draws()) return {false, no_object};
+  return {true, "read once: the mesh of " + objects(f.scene.objects.size())};
+}
+
+Verdict toon(const Facts& f) {
+  if (!f.draws()) return {false, no_object};
+  const std::size_t n = f.count([](const ObjectScene& o) { return o.toon.has_value(); });
+  if (n == 0) return {false, "no object is toon-shaded"};
+  return {true, objects(n) + " toon-shaded"};
+}
+
+Verdict flat(const Facts& f) {
+  if (!f.draws()) return {false, no_object};
+  const std::size_t n = f.count([](const ObjectScene& o) { return !o.toon.has_value(); });
+  if (n == 0) return {false, "every object is toon-shaded"};
+  return {true, objects(n) + " drawn flat (toon = false)"};
+}
+
+Verdict outline(const Facts& f) {
+  if (!f.draws()) return {false, no_object};
+  const std::size_t n = f.count([](const ObjectScene& o) { return o.outline.has_value(); });
+  if (n == 0) return {false, "no object has an outline"};
+  return {true, objects(n) + " outlined"};
+}
+
+Verdict draw(const Facts& f) {
+  if (!f.draws()) return {false, std::string(no_object) + ": no OpenGL context is made"};
+  return {true, objects(f.scene.objects.size()) + " to draw"};
+}
+
+Verdict lens(const Facts& f) {
+  if (!f.draws()) return {false, no_object};
+  if (f.camera == nullptr || !f.camera->has_distortion()) return {false, "the camera has no lens distortion"};
+  return {true, "the camera's lens distortion is put on the CG"};
+}
+
+Verdict composite(const Facts& f) {
+  if (!f.composites()) return {false, "the output is the CG alone"};
+  if (!f.draws()) return {false, "nothing is drawn: the plate goes to the sink untouched"};
+  return {true, "CG is laid over the plate's own planes"};
+}
+
+Verdict unmultiply(const Facts& f) {
+  if (f.composites()) return {false, "the output is the composite"};
+  return {true, "the output is the CG alone, with straight alpha"};
+}
+
+Verdict layers(const Facts& f) {
+  if (!f.request.layers) return {false, "no --layers was given"};
+  return {true, "the CG layer of each frame is written as PNG"};
+}
+
+Verdict copy_streams(const Facts& f) {
+  if (!f.request.no_streams_because.empty()) return {false, f.request.no_streams_because};
+  return {true, "sound and other streams are copied from the input"};
+}
+
+Verdict encode(const Facts&) { return {true, "frames go to the output"}; }
+
+// The table of stages, in the order a frame meets them. A new pass adds its line here.
+struct Kind {
+  const char* name;
+  Verdict (*verdict)(const Facts&);
+  std::vector<const char*> inputs;
+};
+
+const std::vector<Kind>& kinds() {
+  static const std::vector<Kind> all = {
+      {"decode", decode, {}},
+      {"track", track, {"decode"}},
+      {"smooth", smooth, {"track"}},
+      {"import", import, {}},
+      {"toon", toon, {"import"}},
+      {"flat", flat, {"import"}},
+      {"outline", outline, {"import"}},
+      {"draw", draw, {"decode", "track", "smooth", "toon", "flat", "outline"}},
+      {"lens", lens, {"draw"}},
+      {"composite", composite, {"decode", "draw", "lens"}},
+      {"unmultiply", unmultiply, {"draw", "lens"}},
+      {"layers", layers, {"draw", "lens"}},
+      {"copy-streams", copy_streams, {}},
+      {"encode", encode, {"decode", "composite", "unmultiply", "copy-streams"}},
+  };
+  return all;
+}
+
+}  // namespace
+
+bool Plan::runs(std::string_view name) const {
+  return std::any_of(stages.begin(), stages.end(), [name](const Stage& s) { return s.name == name && s.runs; });
+}
+
+Plan make_plan(const Scene& scene, const CameraModel* camera, const Request& request) {
+  const Facts facts{scene, camera, request};
+  std::set<std::string_view> asked_for = {"encode", "layers"};  // the sinks
+  Plan plan;
+  for (auto kind = kinds().rbegin(); kind != kinds().rend(); ++kind) {
+    Stage stage;
+    stage.name = kind->name;
+    const Verdict verdict = kind->verdict(facts);
+    const bool asked = asked_for.contains(stage.name);
+    stage.runs = asked && verdict.runs;
+    stage.why = asked || !verdict.runs ? verdict.why : "nothing that runs reads it";
+    for (const char* input : kind->inputs) {
+      stage.inputs.emplace_back(input);
+      if (stage.runs) asked_for.insert(input);
+    }
+    plan.stages.push_back(std::move(stage));
+  }
+  std::reverse(plan.stages.begin(), plan.stages.end());
+  return plan;
+}
+
+std::string to_dot(const Plan& plan) {
+  std::string text = "digraph plan {\n  rankdir=LR;\n  node [shape=box, fontname=\"sans-serif\"];\n";
+  for (const Stage& stage : plan.stages) {
+    std::string why;
+    for (char c : stage.why) {
+      if (c == '"' || c == '\\') why += '\\';
+      why += c;
+    }
+    text += "  \"" + stage.name + "\" [tooltip=\"" + why + "\"" +
+            (stage.runs ? "" : ", style=dashed, color=grey, fontcolor=grey") + "];\n";
+  }
+  for (const Stage& stage : plan.stages) {
+    for (const std::string& input : stage.inputs) {
+      const bool flows = stage.runs && plan.runs(input);
+      text += "  \"" + input + "\" -> \"" + stage.name + "\"" + (flows ? "" : " [style=dashed, color=grey]") + ";\n";
+    }
+  }
+  return text + "}\n";
+}
+
+}  // namespace rinkaku::pipeline

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "pipeline/frame/frame.h"
+
+namespace rinkaku::source {
+
+/// What is known of a source before its first frame.
+struct Description {
+  std::string name{};                ///< path or device, for messages
+  PictureFormat format;              ///< of the frames as they will come
+  Rational time_base{1, 1};          ///< of Frame::pts
+  Rational frame_rate{0, 1};         ///< average, 0/1 if unknown
+  bool variable_frame_rate = false;  ///< as far as the container tells
+  std::int64_t frame_count = 0;      ///< an estimate, 0 if unknown
+  int rotation_deg = 0;  ///< anticlockwise turn that players apply on show; samples are as stored, never turned
+  bool live = false;
+  /// One line on how the frames differ from what is stored (a pixel format that had to be converted); else empty.
+  std::string notice{};
+};
+
+/// Where filmed frames come from. Used from one thread at a time.
+class Source {
+ public:
+  virtual ~Source() = default;
+
+  virtual const Description& description() const = 0;
+
+  /// The next frame, numbered from 0; empty at the end of the stream.
+  /// Throws Error if the device or file fails altogether; damaged frames are counted, not thrown.
+  virtual std::optional<Frame> next() = 0;
+
+  /// One line on what was damaged or missing so far; empty if nothing was.
+  virtual std::string damage() const { return {}; }
+};
+
+struct OpenOptions {
+  int threads = 0;             ///< decoder threads, 0 for as many as there are cores
+  Rational image_rate{25, 1};  ///< frames per second of an image sequence, which carries no times
+};
+
+/// Opens a video file (anything the FFmpeg libraries decode) or an image sequence, told apart by the name: a printf
+/// pattern ("frames/%04d.png") or a glob ("frames/*.png") is a sequence, in the pattern's or the names' order. A
+/// pattern starts at the lowest number there is and stops before the first that is missing. A file of exactly that name
+/// comes first. One still image is a video of one frame.
+///
+/// Decodes the first picture at once, since only that tells the format. Frames are the decoder's own memory and not
+/// writable; formats whose components are no samples of their own (palettes, floating point, ...) are converted.
+/// Throws Error (Input) if it can't be read or holds no picture.
+std::unique_ptr<Source> open(const std::string& path, const OpenOptions& options = {});
+
+}  // namespace rinkaku::source

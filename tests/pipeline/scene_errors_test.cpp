@@ -1,0 +1,321 @@
+#include "pipeline/toml/schema.h"
+#include "tests/pipeline/scene_folder.h"
+
+namespace rinkaku::pipeline {
+namespace {
+
+using namespace test_scenes;
+
+struct BadScene {
+  std::string name;
+  std::string text;
+  std::string message;
+};
+
+class BadSceneTest : public testing::TestWithParam<BadScene> {};
+
+TEST_P(BadSceneTest, IsRefusedInOneLine) {
+  const SceneFolder folder;
+  EXPECT_EQ(folder.message(GetParam().text), GetParam().message);
+}
+
+std::string test_name(const testing::TestParamInfo<BadScene>& info) { return info.param.name; }
+
+INSTANTIATE_TEST_SUITE_P(
+    Syntax, BadSceneTest,
+    testing::Values(BadScene{"EmptyFile", "",
+                             "DIR/scene.toml: the scene is empty; it needs at least [plate] with 'video' or 'images'"},
+                    BadScene{"OnlyAComment", "# nothing\n",
+                             "DIR/scene.toml: the scene is empty; it needs at least [plate] with 'video' or 'images'"},
+                    BadScene{"Garbage", "\001\002\003 = \n",
+                             "DIR/scene.toml:1:1: not valid TOML: Error while parsing root table: expected keys, "
+                             "tables, whitespace or comments, saw '\\u0001'"},
+                    BadScene{"UnclosedArray", "video = [1,\n",
+                             "DIR/scene.toml:1:13: not valid TOML: Error while parsing array: encountered end-of-file"},
+                    BadScene{"UnclosedText", "[plate]\nvideo = \"a.mp4\n",
+                             "DIR/scene.toml:2:15: not valid TOML: Error while parsing string: unescaped control "
+                             "characters other than TAB (U+0009) are explicitly prohibited"},
+                    BadScene{"KeyTwice", "[plate]\nvideo = \"a.mp4\"\nvideo = \"b.mp4\"\n",
+                             "DIR/scene.toml:3:9: not valid TOML: Error while parsing key-value pair: cannot redefine "
+                             "existing string 'video'"}),
+    test_name);
+
+INSTANTIATE_TEST_SUITE_P(
+    Keys, BadSceneTest,
+    testing::Values(
+        BadScene{"NoPlate", "[light]\n", "DIR/scene.toml: [plate] is missing; add it, with 'video' or 'images'"},
+        BadScene{"MisspeltTable", "[plat]\nvideo = \"a.mp4\"\n",
+                 "DIR/scene.toml:1:2: unknown key 'plat'; did you mean 'plate'?"},
+        BadScene{"MisspeltKey", object + "  outlin = true\n",
+                 "DIR/scene.toml:8:3: unknown key 'outlin' in [[object]]; did you mean 'outline'?"},
+        BadScene{"SwappedLetters", object + "mehs = \"b.obj\"\n",
+                 "DIR/scene.toml:8:1: unknown key 'mehs' in [[object]]; did you mean 'mesh'?"},
+        BadScene{"OtherCase", object + "Toon = true\n",
+                 "DIR/scene.toml:8:1: unknown key 'Toon' in [[object]]; did you mean 'toon'?"},
+        BadScene{"UnitLeftOut", object + "height = 1\n",
+                 "DIR/scene.toml:8:1: unknown key 'height' in [[object]]; did you mean 'height_m'?"},
+        BadScene{"KeyOfAnotherTable", object + "camera = \"camera.yml\"\n",
+                 "DIR/scene.toml:8:1: unknown key 'camera' in [[object]]; it belongs in [plate]"},
+        BadScene{"KeyOfTwoOtherTables", plate + "position_m = [0, 0, 0]\n",
+                 "DIR/scene.toml:4:1: unknown key 'position_m' in [plate]; it belongs in locked of [track] or in "
+                 "[[object]]"},
+        BadScene{"KeyOfAnotherInnerTable", object + "outline = { width_px = 2, bands = 3 }\n",
+                 "DIR/scene.toml:8:27: unknown key 'bands' in outline of [[object]]; it belongs in toon of [[object]]"},
+        BadScene{"MisspeltInnerKey", object + "toon = { band = 3 }\n",
+                 "DIR/scene.toml:8:10: unknown key 'band' in toon of [[object]]; did you mean 'bands'?"},
+        BadScene{"InnerHeader", object + "[object.outline]\nwidth = 3\n",
+                 "DIR/scene.toml:9:1: unknown key 'width' in outline of [[object]]; did you mean 'width_px'?"},
+        BadScene{"NothingNear", object + "regions = \"cow.rgn\"\n",
+                 "DIR/scene.toml:8:1: unknown key 'regions' in [[object]]; known keys are anchor, colour, crease_deg, "
+                 "height_m, mesh, name, outline, position_m, rotation_deg, scale, toon and up"},
+        BadScene{"TableOfALaterVersion", object + "[water]\n",
+                 "DIR/scene.toml:8:2: unknown key 'water'; known keys are light, object, output, plate and track"},
+        BadScene{"TablesOfALaterVersion", object + "[[foreground]]\nname = \"x\"\n",
+                 "DIR/scene.toml:8:3: unknown key 'foreground'; known keys are light, object, output, plate and track"},
+        BadScene{"LiveCamera", "[plate]\ndevice = \"/dev/video0\"\n",
+                 "DIR/scene.toml:2:1: 'device' in [plate] isn't supported; this version takes recordings only: give "
+                 "'video' or 'images'"},
+        BadScene{"SingleBrackets", tracked + "[object]\nmesh = \"cow.obj\"\n",
+                 "DIR/scene.toml:6:1: 'object' must be tables, each headed [[object]] in two brackets, found a table"},
+        BadScene{"DoubleBrackets", "[[plate]]\nvideo = \"a.mp4\"\n",
+                 "DIR/scene.toml:1:1: 'plate' must be one table, [plate], found an array of 1"},
+        BadScene{"ControlCharacterInKey", "[\"pla\\nte\"]\n",
+                 "DIR/scene.toml:1:2: unknown key 'pla?te'; did you mean 'plate'?"}),
+    test_name);
+
+INSTANTIATE_TEST_SUITE_P(
+    Plate, BadSceneTest,
+    testing::Values(
+        BadScene{"NoPicture", "[plate]\ncamera = \"camera.yml\"\n",
+                 "DIR/scene.toml:1:1: [plate] needs one of 'video' or 'images'"},
+        BadScene{"TwoPictures", "[plate]\nvideo = \"a.mp4\"\nimages = \"frames/%04d.png\"\n",
+                 "DIR/scene.toml:3:10: 'images' in [plate] can't stand beside 'video'; keep one of them"},
+        BadScene{"VideoMissing", "[plate]\nvideo = \"b.mp4\"\n",
+                 "DIR/scene.toml:2:9: 'video' in [plate] names a file that doesn't exist: DIR/b.mp4"},
+        BadScene{"VideoIsFolder", "[plate]\nvideo = \"frames\"\n",
+                 "DIR/scene.toml:2:9: 'video' in [plate] names a folder, not a file: DIR/frames"},
+        BadScene{"VideoIsDevice", "[plate]\nvideo = \"/dev/null\"\n",
+                 "DIR/scene.toml:2:9: 'video' in [plate] names a device: /dev/null; give a recorded file"},
+        BadScene{"VideoEmpty", "[plate]\nvideo = \"\"\n", "DIR/scene.toml:2:9: 'video' in [plate] must not be empty"},
+        BadScene{"VideoNumber", "[plate]\nvideo = 3\n",
+                 "DIR/scene.toml:2:9: 'video' in [plate] must be a text in quotes, found 3"},
+        BadScene{"VideoDate", "[plate]\nvideo = 1979-05-27\n",
+                 "DIR/scene.toml:2:9: 'video' in [plate] must be a text in quotes, found a date or time"},
+        BadScene{"VideoWithNul", "[plate]\nvideo = \"a.mp4\\u0000\"\n",
+                 "DIR/scene.toml:2:9: 'video' in [plate] must be a text without control characters, found the text "
+                 "\"a.mp4?\""},
+        BadScene{"CameraMissing", "[plate]\nvideo = \"a.mp4\"\ncamera = \"sub/../camera2.yml\"\n",
+                 "DIR/scene.toml:3:10: 'camera' in [plate] names a file that doesn't exist: DIR/camera2.yml"},
+        BadScene{"ImagesWithoutPattern", "[plate]\nimages = \"a.png\"\n",
+                 "DIR/scene.toml:2:10: 'images' in [plate] must be a pattern of image files such as "
+                 "\"frames/%04d.png\", found the text \"a.png\""},
+        BadScene{"ImagesFolderMissing", "[plate]\nimages = \"nowhere/%04d.png\"\n",
+                 "DIR/scene.toml:2:10: 'images' in [plate] names a folder that doesn't exist: DIR/nowhere"},
+        BadScene{"PlateIsNumber", "plate = 3\n", "DIR/scene.toml:1:9: 'plate' must be one table, [plate], found 3"}),
+    test_name);
+
+INSTANTIATE_TEST_SUITE_P(
+    Track, BadSceneTest,
+    testing::Values(
+        BadScene{
+            "ObjectWithoutTrack", plate + "[[object]]\nmesh = \"cow.obj\"\n",
+            "DIR/scene.toml:4:1: [[object]] needs a camera pose; add [track] with one of marker, board, poses, locked"},
+        BadScene{"ObjectWithoutCamera",
+                 "[plate]\nvideo = \"a.mp4\"\n[track]\nposes = \"poses.csv\"\n[[object]]\nmesh = \"cow.obj\"\n",
+                 "DIR/scene.toml:5:1: [[object]] needs the camera's intrinsics; add 'camera' to [plate], e.g. "
+                 "\"camera.yml\""},
+        BadScene{"NoWay", plate + "[track]\n",
+                 "DIR/scene.toml:4:1: [track] needs one of 'marker', 'board', 'poses' or 'locked'"},
+        BadScene{"TwoWays", tracked + "board = \"board.toml\"\n",
+                 "DIR/scene.toml:6:9: 'board' in [track] can't stand beside 'poses'; keep one of them"},
+        BadScene{"PosesMissing", plate + "[track]\nposes = \"p.csv\"\n",
+                 "DIR/scene.toml:5:9: 'poses' in [track] names a file that doesn't exist: DIR/p.csv"},
+        BadScene{"BoardMissing", plate + "[track]\nboard = \"b.toml\"\n",
+                 "DIR/scene.toml:5:9: 'board' in [track] names a file that doesn't exist: DIR/b.toml"},
+        BadScene{"DictionaryMisspelt", plate + "[track]\nmarker = { dictionary = \"4X4_55\", id = 1, size_m = 0.1 }\n",
+                 "DIR/scene.toml:5:25: there is no marker dictionary \"4X4_55\"; did you mean \"4X4_50\"?"},
+        BadScene{"IdBeyondDictionary", plate + "[track]\nmarker = { dictionary = \"4X4_50\", id = 50, size_m = 0.1 }\n",
+                 "DIR/scene.toml:5:40: 'id' in marker of [track] must be a whole number from 0 to 49, found 50"},
+        BadScene{"IdMissing", plate + "[track]\nmarker = { dictionary = \"4X4_50\", size_m = 0.1 }\n",
+                 "DIR/scene.toml:5:10: 'id' in marker of [track] is missing"},
+        BadScene{
+            "SizeZero", plate + "[track]\nmarker = { dictionary = \"4X4_50\", id = 1, size_m = 0.0 }\n",
+            "DIR/scene.toml:5:52: 'size_m' in marker of [track] must be a number above 0 and at most 100, found 0"},
+        BadScene{"MarkerNumber", plate + "[track]\nmarker = 7\n",
+                 "DIR/scene.toml:5:10: 'marker' in [track] must be a table { ... }, found 7"},
+        BadScene{"LookAtMissing", plate + "[track]\nlocked = { position_m = [0, 0, 2] }\n",
+                 "DIR/scene.toml:5:10: 'look_at_m' in locked of [track] is missing"},
+        BadScene{"LooksAtItself", plate + "[track]\nlocked = { position_m = [0, 0, 2], look_at_m = [0, 0, 2] }\n",
+                 "DIR/scene.toml:5:48: 'look_at_m' in locked of [track] must differ from 'position_m'"},
+        BadScene{"LooksAlongUp", plate + "[track]\nlocked = { position_m = [0, 0, 2], look_at_m = [0, 0, 0] }\n",
+                 "DIR/scene.toml:5:10: the camera looks along 'up' in locked of [track]; give 'up' another direction, "
+                 "e.g. [0, 1, 0]"},
+        BadScene{"UpZero",
+                 plate + "[track]\nlocked = { position_m = [0, 0, 2], look_at_m = [0, 1, 0], up = [0, 0, 0] }\n",
+                 "DIR/scene.toml:5:64: 'up' in locked of [track] must be a direction of some length; give one such as "
+                 "[0, 0, 1]"},
+        BadScene{"HoldWhileLocked",
+                 plate + "[track]\nlocked = { position_m = [0, 0, 2], look_at_m = [0, 1, 0] }\nhold_s = 1\n",
+                 "DIR/scene.toml:6:10: 'hold_s' in [track] has no meaning beside 'locked'; leave it out"},
+        BadScene{"SmoothingNumber", tracked + "smoothing = 1\n",
+                 "DIR/scene.toml:6:13: 'smoothing' in [track] must be true, false or a table { ... }, found 1"},
+        BadScene{"BetaNegative", tracked + "smoothing = { beta = -1 }\n",
+                 "DIR/scene.toml:6:22: 'beta' in smoothing of [track] must be a number from 0 to 1000000, found -1"},
+        BadScene{"CutoffZero", tracked + "smoothing = { min_cutoff_hz = 0 }\n",
+                 "DIR/scene.toml:6:31: 'min_cutoff_hz' in smoothing of [track] must be a number above 0 and at most "
+                 "1000, found 0"},
+        BadScene{"HoldNegative", tracked + "hold_s = -1\n",
+                 "DIR/scene.toml:6:10: 'hold_s' in [track] must be a number from 0 to 3600, found -1"},
+        BadScene{"FadeNan", tracked + "fade_s = nan\n",
+                 "DIR/scene.toml:6:10: 'fade_s' in [track] must be a number from 0 to 3600, found nan"}),
+    test_name);
+
+INSTANTIATE_TEST_SUITE_P(
+    Object, BadSceneTest,
+    testing::Values(
+        BadScene{"MeshLeftOut", tracked + "[[object]]\nname = \"cow\"\n",
+                 "DIR/scene.toml:6:1: 'mesh' in [[object]] is missing"},
+        BadScene{"MeshMissing", tracked + "[[object]]\nmesh = \"spot.obj\"\n",
+                 "DIR/scene.toml:7:8: 'mesh' in [[object]] names a file that doesn't exist: DIR/spot.obj"},
+        BadScene{"HeightZero", object + "height_m = 0\n",
+                 "DIR/scene.toml:8:12: 'height_m' in [[object]] must be a number above 0 and at most 1000000, found 0"},
+        BadScene{
+            "HeightNegative", object + "height_m = -0.2\n",
+            "DIR/scene.toml:8:12: 'height_m' in [[object]] must be a number above 0 and at most 1000000, found -0.2"},
+        BadScene{
+            "HeightNan", object + "height_m = nan\n",
+            "DIR/scene.toml:8:12: 'height_m' in [[object]] must be a number above 0 and at most 1000000, found nan"},
+        BadScene{"HeightInfinite", object + "height_m = inf\n",
+                 "DIR/scene.toml:8:12: 'height_m' in [[object]] must be a number above 0 and at most 1000000, found "
+                 "infinity"},
+        BadScene{"HeightText", object + "height_m = \"15 cm\"\n",
+                 "DIR/scene.toml:8:12: 'height_m' in [[object]] must be a number above 0 and at most 1000000, found "
+                 "the text \"15 cm\""},
+        BadScene{"HeightAndScale", object + "height_m = 1\nscale = 2\n",
+                 "DIR/scene.toml:9:9: 'scale' in [[object]] can't stand beside 'height_m'; keep one of them"},
+        BadScene{"ScaleZero", object + "scale = 0\n",
+                 "DIR/scene.toml:8:9: 'scale' in [[object]] must not be 0 or nearly 0"},
+        BadScene{"ScaleZeroOnce", object + "scale = [1, 0, 1]\n",
+                 "DIR/scene.toml:8:9: 'scale' in [[object]] must not be 0 or nearly 0"},
+        BadScene{"ScaleText", object + "scale = \"2\"\n",
+                 "DIR/scene.toml:8:9: 'scale' in [[object]] must be a number or three numbers [x, y, z], found the "
+                 "text \"2\""},
+        BadScene{"ScaleTwoNumbers", object + "scale = [1, 2]\n",
+                 "DIR/scene.toml:8:9: 'scale' in [[object]] must be three numbers [x, y, z], found an array of 2"},
+        BadScene{
+            "ScaleInfinite", object + "scale = -inf\n",
+            "DIR/scene.toml:8:9: 'scale' in [[object]] must be a number from -1000000 to 1000000, found -infinity"},
+        BadScene{
+            "PositionTwoNumbers", object + "position_m = [0, 0]\n",
+            "DIR/scene.toml:8:14: 'position_m' in [[object]] must be three numbers [x, y, z], found an array of 2"},
+        BadScene{"PositionNan", object + "position_m = [0, 0, nan]\n",
+                 "DIR/scene.toml:8:21: 'position_m' in [[object]] must be three numbers from -1000000 to 1000000, "
+                 "found nan"},
+        BadScene{"PositionNumber", object + "position_m = 1\n",
+                 "DIR/scene.toml:8:14: 'position_m' in [[object]] must be three numbers [x, y, z], found 1"},
+        BadScene{"PositionText", object + "position_m = [0, \"a\", 0]\n",
+                 "DIR/scene.toml:8:18: 'position_m' in [[object]] must be three numbers from -1000000 to 1000000, "
+                 "found the text \"a\""},
+        BadScene{"PositionFar", object + "position_m = [0, 0, 1e9]\n",
+                 "DIR/scene.toml:8:21: 'position_m' in [[object]] must be three numbers from -1000000 to 1000000, "
+                 "found 1000000000"},
+        BadScene{"UpUnknown", object + "up = \"w\"\n",
+                 "DIR/scene.toml:8:6: 'up' in [[object]] must be \"x\", \"y\" or \"z\", found the text \"w\""},
+        BadScene{"UpArray", object + "up = [0, 0, 1]\n",
+                 "DIR/scene.toml:8:6: 'up' in [[object]] must be a text in quotes, found an array of 3"},
+        BadScene{"AnchorUnknown", object + "anchor = \"top\"\n",
+                 "DIR/scene.toml:8:10: 'anchor' in [[object]] must be \"base\" or \"origin\", found the text \"top\""},
+        BadScene{"CreaseTooWide", object + "crease_deg = 181\n",
+                 "DIR/scene.toml:8:14: 'crease_deg' in [[object]] must be a number from 0 to 180, found 181"},
+        BadScene{"ColourByName", object + "colour = \"red\"\n",
+                 "DIR/scene.toml:8:10: 'colour' in [[object]] must be a colour, \"#rrggbb\" or [r, g, b] from 0 to 1, "
+                 "found the text \"red\""},
+        BadScene{"ColourShort", object + "colour = \"#fff\"\n",
+                 "DIR/scene.toml:8:10: 'colour' in [[object]] must be a colour, \"#rrggbb\" or [r, g, b] from 0 to 1, "
+                 "found the text \"#fff\""},
+        BadScene{"ColourTooBright", object + "colour = [1, 2, 0]\n",
+                 "DIR/scene.toml:8:14: 'colour' in [[object]] must be three numbers from 0 to 1, found 2"},
+        BadScene{"NameWithEscape", object + "name = \"a\\u001bb\"\n",
+                 "DIR/scene.toml:8:8: 'name' in [[object]] must be a text without control characters, found the text "
+                 "\"a?b\""},
+        BadScene{"ToonNumber", object + "toon = 3\n",
+                 "DIR/scene.toml:8:8: 'toon' in [[object]] must be true, false or a table { ... }, found 3"},
+        BadScene{"OneBand", object + "toon = { bands = 1 }\n",
+                 "DIR/scene.toml:8:18: 'bands' in toon of [[object]] must be a whole number from 2 to 16, found 1"},
+        BadScene{"HalfABand", object + "toon = { bands = 2.5 }\n",
+                 "DIR/scene.toml:8:18: 'bands' in toon of [[object]] must be a whole number from 2 to 16, found 2.5"},
+        BadScene{
+            "ShadeNegative", object + "toon = { shade_colour = [0, 0, -0.1] }\n",
+            "DIR/scene.toml:8:32: 'shade_colour' in toon of [[object]] must be three numbers from 0 to 1, found -0.1"},
+        BadScene{"OutlineText", object + "outline = \"yes\"\n",
+                 "DIR/scene.toml:8:11: 'outline' in [[object]] must be true, false or a table { ... }, found the text "
+                 "\"yes\""},
+        BadScene{
+            "OutlineArray", object + "outline = [1]\n",
+            "DIR/scene.toml:8:11: 'outline' in [[object]] must be true, false or a table { ... }, found an array of 1"},
+        BadScene{"WidthZero", object + "outline = { width_px = 0 }\n",
+                 "DIR/scene.toml:8:24: 'width_px' in outline of [[object]] must be a number above 0 and at most 100, "
+                 "found 0"}),
+    test_name);
+
+INSTANTIATE_TEST_SUITE_P(
+    LightAndOutput, BadSceneTest,
+    testing::Values(
+        BadScene{"LightZero", plate + "[light]\ndirection = [0, 0, 0]\n",
+                 "DIR/scene.toml:5:13: 'direction' in [light] must not be [0, 0, 0]; give the way towards the light"},
+        BadScene{
+            "LightNan", plate + "[light]\ndirection = [0, nan, 1]\n",
+            "DIR/scene.toml:5:17: 'direction' in [light] must be three numbers from -1000000 to 1000000, found nan"},
+        BadScene{"OutputIsInput", plate + "[output]\nvideo = \"a.mp4\"\n",
+                 "DIR/scene.toml:5:9: 'video' in [output] is the filmed input itself; name another file"},
+        BadScene{"ImagesWithoutNumber", plate + "[output]\nimages = \"b.png\"\n",
+                 "DIR/scene.toml:5:10: 'images' in [output] must be a pattern of image files such as "
+                 "\"frames/%04d.png\", found the text \"b.png\""},
+        BadScene{"CodecForImages", plate + "[output]\nimages = \"%d.png\"\ncodec = \"ffv1\"\n",
+                 "DIR/scene.toml:6:9: 'codec' in [output] goes with 'video', not with 'images'; leave it out"},
+        BadScene{
+            "BitRateTiny", plate + "[output]\nvideo = \"b.mp4\"\nbit_rate = 4\n",
+            "DIR/scene.toml:6:12: 'bit_rate' in [output] must be a whole number from 1000 to 10000000000, found 4"},
+        BadScene{
+            "ContentUnknown", plate + "[output]\ncontent = \"matte\"\n",
+            "DIR/scene.toml:5:11: 'content' in [output] must be \"composite\" or \"cg\", found the text \"matte\""},
+        BadScene{"TwoOutputs", plate + "[output]\nvideo = \"b.mp4\"\nimages = \"%d.png\"\n",
+                 "DIR/scene.toml:6:10: 'images' in [output] can't stand beside 'video'; keep one of them"}),
+    test_name);
+
+TEST(SceneErrors, NamesAFileThatIsNone) {
+  const SceneFolder folder;
+  std::filesystem::create_directories(folder / "sub");
+  std::ofstream(folder / "binary.toml", std::ios::binary) << std::string("\x7f\x01\0\0", 4);
+  std::ofstream(folder / "huge.toml") << std::string(5u << 20, '#');
+  EXPECT_EQ(folder.message_for("none.toml"), "DIR/none.toml: no such file");
+  EXPECT_EQ(folder.message_for("sub"), "DIR/sub: is a folder; name the TOML file in it");
+  EXPECT_EQ(folder.message_for("binary.toml"), "DIR/binary.toml: isn't a text file, so it can't be TOML");
+  EXPECT_EQ(folder.message_for("huge.toml"), "DIR/huge.toml: is larger than 4 MiB, so it can't be meant");
+}
+
+TEST(SceneErrors, ReportsTheFirstUnknownKeyInTheFile) {
+  const SceneFolder folder;
+  EXPECT_EQ(folder.message("[plate]\nvidio = 1\nabc = 2\n[zzz]\n[aaa]\n"),
+            "DIR/scene.toml:2:1: unknown key 'vidio' in [plate]; did you mean 'video'?");
+}
+
+TEST(SceneErrors, SurvivesEveryCutOfAScene) {
+  const SceneFolder folder;
+  const std::string whole = object + "toon = { bands = 4 }\noutline = { width_px = 2.5, colour = \"#102030\" }\n";
+  for (std::size_t length = 0; length < whole.size(); ++length) folder.message(whole.substr(0, length));
+  EXPECT_EQ(folder.message(whole), "");
+}
+
+TEST(Nearest, CountsEditsAndSwaps) {
+  const std::vector<std::string_view> words{"outline", "toon", "height_m", "up"};
+  EXPECT_EQ(toml::nearest("outlnie", words), "outline");
+  EXPECT_EQ(toml::nearest("TOON", words), "toon");
+  EXPECT_EQ(toml::nearest("hight", words), "height_m");
+  EXPECT_EQ(toml::nearest("ups", words), "up");
+  EXPECT_EQ(toml::nearest("water", words), "");
+  EXPECT_EQ(toml::nearest("", words), "");
+}
+
+}  // namespace
+}  // namespace rinkaku::pipeline

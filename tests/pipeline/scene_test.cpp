@@ -1,0 +1,141 @@
+#include "pipeline/scene.h"
+
+#include "tests/pipeline/scene_folder.h"
+
+namespace rinkaku::pipeline {
+namespace {
+
+using namespace test_scenes;
+
+TEST(Scene, TakesAPlateAlone) {
+  const SceneFolder folder;
+  const Scene scene = folder.read("[plate]\nvideo = \"a.mp4\"\n");
+  EXPECT_EQ(scene.file, folder / "scene.toml");
+  EXPECT_EQ(scene.plate.input, (folder / "a.mp4").string());
+  EXPECT_TRUE(scene.plate.camera.empty());
+  EXPECT_FALSE(scene.track);
+  EXPECT_TRUE(scene.objects.empty());
+  EXPECT_TRUE(scene.output.path.empty());
+}
+
+TEST(Scene, FillsInDefaults) {
+  const SceneFolder folder;
+  const Scene scene = folder.read(object);
+  ASSERT_EQ(scene.objects.size(), 1u);
+  const ObjectScene& cow = scene.objects[0];
+  EXPECT_EQ(cow.name, "cow.obj");
+  EXPECT_EQ(cow.mesh, folder / "cow.obj");
+  EXPECT_EQ(cow.scale, glm::dvec3(1));
+  EXPECT_FALSE(cow.height_m);
+  EXPECT_FALSE(cow.up);
+  EXPECT_EQ(cow.anchor, ObjectScene::Anchor::Base);
+  EXPECT_FALSE(cow.colour);
+  ASSERT_TRUE(cow.toon);
+  EXPECT_EQ(cow.toon->bands, 3);
+  EXPECT_FALSE(cow.outline);
+  EXPECT_FALSE(scene.track->smoothing.on);
+  EXPECT_EQ(scene.track->hold_s, 0.3);
+  EXPECT_EQ(scene.output.content, OutputScene::Content::Composite);
+}
+
+TEST(Scene, ReadsEveryKeyOfAnObject) {
+  const SceneFolder folder;
+  const Scene scene = folder.read(
+      object +
+      "name = \"Spot\"\nposition_m = [1, -2.5, 0.25]\nrotation_deg = [0, 0, 90]\n"
+      "height_m = 0.15\nup = \"z\"\ncrease_deg = 30\ncolour = \"#ff8000\"\n"
+      "toon = { bands = 5, shade_colour = [0.25, 0.5, 1] }\n"
+      "outline = { width_px = 2.5, colour = \"#000000\" }\n"
+      "[[object]]\nmesh = \"cow.obj\"\nscale = [-1, 2, 3]\ntoon = false\noutline = true\nanchor = \"origin\"\n");
+  ASSERT_EQ(scene.objects.size(), 2u);
+  const ObjectScene& first = scene.objects[0];
+  EXPECT_EQ(first.name, "Spot");
+  EXPECT_EQ(first.position_m, glm::dvec3(1, -2.5, 0.25));
+  EXPECT_EQ(first.rotation_deg, glm::dvec3(0, 0, 90));
+  EXPECT_EQ(first.height_m, 0.15);
+  EXPECT_EQ(first.up, 'z');
+  EXPECT_EQ(first.crease_deg, 30);
+  EXPECT_EQ(first.colour, (std::array{1.0, 128 / 255.0, 0.0}));
+  EXPECT_EQ(first.toon->bands, 5);
+  EXPECT_EQ(first.toon->shade_colour, (std::array{0.25, 0.5, 1.0}));
+  EXPECT_EQ(first.outline->width_px, 2.5);
+  EXPECT_EQ(first.outline->colour, (std::array{0.0, 0.0, 0.0}));
+  const ObjectScene& second = scene.objects[1];
+  EXPECT_EQ(second.scale, glm::dvec3(-1, 2, 3));
+  EXPECT_EQ(second.anchor, ObjectScene::Anchor::Origin);
+  EXPECT_FALSE(second.toon);
+  EXPECT_EQ(second.outline->width_px, OutlineScene{}.width_px);
+}
+
+TEST(Scene, TakesOneScaleForAllAxes) {
+  const SceneFolder folder;
+  EXPECT_EQ(folder.read(object + "scale = -2\n").objects[0].scale, glm::dvec3(-2));
+}
+
+TEST(Scene, ReadsAMarkerAndSmoothsIt) {
+  const SceneFolder folder;
+  const std::string marker = "[track]\nmarker = { dictionary = \"DICT_APRILTAG_36h11\", id = 586, size_m = 0.1 }\n";
+  const Scene scene = folder.read(plate + marker + "hold_s = 0\nfade_s = 1.5\n");
+  const auto& track = std::get<MarkerTrack>(scene.track->from);
+  EXPECT_EQ(track.dictionary, "APRILTAG_36h11");
+  EXPECT_EQ(track.id, 586);
+  EXPECT_EQ(track.size_m, 0.1);
+  EXPECT_TRUE(scene.track->smoothing.on);
+  EXPECT_EQ(scene.track->hold_s, 0);
+  EXPECT_EQ(scene.track->fade_s, 1.5);
+  EXPECT_FALSE(folder.read(plate + marker + "smoothing = false\n").track->smoothing.on);
+}
+
+TEST(Scene, ReadsBoardPosesAndLocked) {
+  const SceneFolder folder;
+  const Scene board = folder.read(plate + "[track]\nboard = \"board.toml\"\n");
+  EXPECT_EQ(std::get<BoardTrack>(board.track->from).board, folder / "board.toml");
+  EXPECT_TRUE(board.track->smoothing.on);
+  const Scene poses = folder.read(tracked + "smoothing = { beta = 2 }\n");
+  EXPECT_EQ(std::get<PoseFileTrack>(poses.track->from).poses, folder / "poses.csv");
+  EXPECT_TRUE(poses.track->smoothing.on);
+  EXPECT_EQ(poses.track->smoothing.beta, 2);
+  EXPECT_EQ(poses.track->smoothing.min_cutoff_hz, Smoothing{}.min_cutoff_hz);
+  const Scene locked =
+      folder.read(plate + "[track]\nlocked = { position_m = [0, -2, 1], look_at_m = [0, 0, 0.5], up = [0, 1, 0] }\n");
+  const auto& camera = std::get<LockedTrack>(locked.track->from);
+  EXPECT_EQ(camera.position_m, glm::dvec3(0, -2, 1));
+  EXPECT_EQ(camera.look_at_m, glm::dvec3(0, 0, 0.5));
+  EXPECT_EQ(camera.up, glm::dvec3(0, 1, 0));
+  EXPECT_FALSE(locked.track->smoothing.on);
+}
+
+TEST(Scene, ReadsLightAndOutput) {
+  const SceneFolder folder;
+  const Scene scene = folder.read(plate +
+                                  "[light]\ndirection = [0, 0, 2]\n[output]\nvideo = \"../out.mkv\"\n"
+                                  "codec = \"ffv1\"\nbit_rate = 4_000_000\ncontent = \"cg\"\n");
+  EXPECT_EQ(scene.light.direction, glm::dvec3(0, 0, 2));
+  EXPECT_EQ(scene.output.path, (folder.path().parent_path() / "out.mkv").string());
+  EXPECT_EQ(scene.output.codec, "ffv1");
+  EXPECT_EQ(scene.output.bit_rate, 4'000'000);
+  EXPECT_EQ(scene.output.content, OutputScene::Content::Cg);
+  EXPECT_EQ(folder.read(plate + "[output]\nvideo = \"-\"\n").output.path, "-");
+  EXPECT_EQ(folder.read(plate + "[output]\nimages = \"out/%04d.png\"\n").output.path,
+            (folder / "out/%04d.png").string());
+}
+
+TEST(Scene, TakesImagesAndOddSpelling) {
+  const SceneFolder folder;
+  EXPECT_EQ(folder.read("[plate]\nimages = \"frames/%04d.png\"\n").plate.input, (folder / "frames/%04d.png").string());
+  EXPECT_EQ(folder.read("[plate]\nimages = \"frames/*.png\"\n").plate.input, (folder / "frames/*.png").string());
+  // A byte order mark, Windows line ends, an absolute path, dotted keys.
+  const std::string video = (folder / "a.mp4").string();
+  EXPECT_EQ(folder.read("\xef\xbb\xbfplate.video = \"" + video + "\"\r\n").plate.input, video);
+}
+
+TEST(Scene, TheCallsInputReplacesThePlates) {
+  const SceneFolder folder;
+  const auto file = folder.write("[plate]\nvideo = \"not there.mp4\"\ncamera = \"camera.yml\"\n");
+  EXPECT_EQ(read_scene(file, {.input = (folder / "b.mp4").string()}).plate.input, (folder / "b.mp4").string());
+  const auto relative = read_scene(file, {.input = "b.mp4"}).plate.input;
+  EXPECT_EQ(relative, (std::filesystem::current_path() / "b.mp4").string());
+}
+
+}  // namespace
+}  // namespace rinkaku::pipeline
