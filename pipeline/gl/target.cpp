@@ -34,12 +34,12 @@ void Target::begin(int width_px, int height_px) {
   if (width_px > width_px_ || height_px > height_px_) {
     GLint most = 0;
     glGetIntegerv(GL_MAX_RENDERBUFFER_SIZE, &most);
-    width_px_ = std::min(most, std::max(width_px_, rounded(width_px)));
-    height_px_ = std::min(most, std::max(height_px_, rounded(height_px)));
-    if (width_px > width_px_ || height_px > height_px_) {
+    if (width_px > most || height_px > most) {
       throw runtime_failure("OpenGL", "a picture of " + std::to_string(width_px) + "x" + std::to_string(height_px) +
                                           " pixels is larger than this driver draws");
     }
+    width_px_ = std::min(most, std::max(width_px_, rounded(width_px)));
+    height_px_ = std::min(most, std::max(height_px_, rounded(height_px)));
     colour_ = storage(GL_RGBA8, width_px_, height_px_);
     depth_ = storage(GL_DEPTH_COMPONENT32F, width_px_, height_px_);
     glNamedFramebufferRenderbuffer(framebuffer_.name(), GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, colour_.name());

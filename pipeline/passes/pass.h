@@ -20,7 +20,8 @@ struct DrawCall {
 ///
 /// Edges are smoothed without multisampling: each pass draws its surface pulled in by half a pixel, and then, after all
 /// surfaces of all objects, a feather one pixel wide along the contour that fades from the surface's colour to nothing,
-/// depth-tested against the rest. Coverage is thus right for every straight edge, at the cost of the contour alone.
+/// depth-tested against the rest. Coverage is thus right to a few hundredths along smooth shapes (to a quarter at hard
+/// edges, where the welded normal is not at right angles to the edge), at the cost of the contour alone.
 /// Needs a current GL context.
 class ObjectPass {
  public:

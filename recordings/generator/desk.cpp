@@ -61,7 +61,7 @@ void make_desk(const std::filesystem::path& folder, FrameRange range) {
   const Room room = make_desk_room(board, eyes);
   const LensRays rays(camera);
   const FilmOptions film{1.0f, 0.28f, 3500, 6, 7};
-  Encoder encoder(folder / "video.mp4", camera.width_px, camera.height_px, options.rate_hz, Encoder::Kind::Video, 21);
+  Encoder encoder(folder / "video.mp4", camera.width_px, camera.height_px, options.rate_hz, Encoder::Kind::Video, 22);
   for (int i = range.first; i < std::min(range.last, frames_in_all); ++i) {
     encoder.write(to_yuv420(develop(render(room, camera, rays, path, options, i), film, i)));
     std::fprintf(stderr, "\rdesk %d/%d", i + 1, frames_in_all);

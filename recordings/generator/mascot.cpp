@@ -176,19 +176,26 @@ ColouredMesh button(glm::vec2 place, glm::vec3 radii, float out, Colour colour, 
   return mesh_surface(f, centre - reach, centre + reach, cell, colour);
 }
 
+// A line drawn into the face: low, but rooted deep, so that an outline pass does not thicken it.
 ColouredMesh mouth() {
   constexpr int links = 8;
-  std::vector<glm::vec3> line;  // half an omega, sunk into the face by half its thickness
+  std::vector<glm::vec3> line;  // half an omega
   for (int i = 0; i <= links; ++i) {
     const float a = 3.14159f * static_cast<float>(i) / links;
-    line.push_back(on_face(0.036f - 0.036f * std::cos(a), 0.527f - 0.030f * std::sin(a)) - glm::vec3(0, 0, 0.0042f));
+    line.push_back(on_face(0.036f - 0.036f * std::cos(a), 0.527f - 0.030f * std::sin(a)));
   }
   const Implicit f = [&](glm::vec3 p) {
-    float d = 1e9f;
+    const glm::vec2 q(std::abs(p.x), p.y);
+    float away = 1e9f, face = 0;
     for (std::size_t i = 1; i < line.size(); ++i) {
-      d = std::min(d, rounded_cone(mirrored(p), line[i - 1], line[i], 0.0068f, 0.0068f));
+      const glm::vec2 a(line[i - 1]), axis = glm::vec2(line[i]) - a;
+      const float t = glm::clamp(glm::dot(q - a, axis) / glm::dot(axis, axis), 0.0f, 1.0f);
+      const float d = glm::length(q - a - t * axis);
+      if (d >= away) continue;
+      away = d;
+      face = glm::mix(line[i - 1].z, line[i].z, t);
     }
-    return d;
+    return -smooth_union(0.0082f - away, 0.018f - std::abs(p.z - face + 0.0145f), 0.004f);
   };
   return mesh_surface(f, {-0.10f, 0.47f, 0.15f}, {0.10f, 0.55f, 0.36f}, 0.0062f, Mouth);
 }
@@ -201,7 +208,7 @@ Mascot make_mascot() {
   paint_coat(mesh);
 
   for (const float side : {-1.0f, 1.0f}) {
-    ColouredMesh eye = button({side * 0.130f, 0.632f}, {0.050f, 0.066f, 0.030f}, 0.012f, Eye, 0.0135f, 0.7f);
+    ColouredMesh eye = button({side * 0.130f, 0.632f}, {0.068f, 0.090f, 0.055f}, 0.013f, Eye, 0.0155f, 0.7f);
     const glm::vec2 low(side * 0.130f, 0.590f);
     paint(
         eye, [low](glm::vec3 p) { return (glm::length((glm::vec2(p) - low) / glm::vec2(0.034f, 0.026f)) - 1) * 0.03f; },

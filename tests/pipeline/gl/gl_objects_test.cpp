@@ -39,12 +39,13 @@ gl::Program program(std::string_view fragment, std::initializer_list<std::string
   return gl::Program("test", std::vector<std::string_view>(defines), vertex_parts, fragment_parts);
 }
 
-// Draws over the whole viewport.
+// Draws over the whole viewport, at a depth of 0.5.
 void draw(const gl::Program& p) {
   GLuint array = 0;
   glCreateVertexArrays(1, &array);
   const gl::VertexArrayHandle handle(array);
-  glDisable(GL_DEPTH_TEST);
+  glEnable(GL_DEPTH_TEST);
+  glDepthFunc(GL_ALWAYS);
   glDisable(GL_BLEND);
   glBindVertexArray(array);
   glUseProgram(p.name());

@@ -66,13 +66,20 @@ void expect_blended(Frame frame, const Layer& layer, double opacity, int matrix,
   }
 }
 
-// random_frame() fills whole words; samples of 9 to 15 bits may only use their own.
+// random_frame() fills whole words; samples of 9 to 15 bits may only use their own. A plate's alpha is opaque: straight
+// alpha below that would ask for another formula.
 Frame valid_random_frame(FramePool& pool, const PictureFormat& format, std::mt19937& random) {
   Frame frame = random_frame(pool, format, random);
   for (int c = 0; c < format.pixels.components; ++c) {
     if (sample_bytes(format.pixels.component[c]) == 1) continue;
     for (int y = 0; y < format.component_height_px(c); ++y) {
       for (int x = 0; x < format.component_width_px(c); ++x) set_sample(frame, c, x, y, sample(frame, c, x, y));
+    }
+  }
+  for (int y = 0; format.pixels.has_alpha && y < format.height_px; ++y) {
+    const int last = format.pixels.components - 1;
+    for (int x = 0; x < format.width_px; ++x) {
+      set_sample(frame, last, x, y, (1 << format.pixels.component[last].depth_bits) - 1);
     }
   }
   return frame;

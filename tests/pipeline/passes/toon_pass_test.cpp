@@ -205,6 +205,22 @@ TEST_F(Toon, TranslucentSurfaceLetsWhatIsBehindItThrough) {
   EXPECT_EQ(at(hidden, 32, 32), (Rgba{255, 0, 0, 255}));
 }
 
+TEST_F(Toon, TranslucentObjectsAreLaidOverOneAnotherFromFarToNear) {
+  const View v = view(64, 64, 64);
+  mesh::Mesh red_glass = square({1, 0, 0, 0.5f}), blue_glass = square({0, 0, 1, 0.5f});
+  red_glass.materials[0].alpha = blue_glass.materials[0].alpha = mesh::Material::Alpha::Blend;
+  for (bool far_first : {false, true}) {
+    auto near = toon(blue_glass, moved(0, 0, 2)), far = toon(red_glass, moved(0, 0, 3));
+    const Layer layer = far_first ? drawn(scene_of(std::move(far), std::move(near)), v)
+                                  : drawn(scene_of(std::move(near), std::move(far)), v);
+    const Rgba seen = at(layer, 32, 32);
+    // Half blue, and half of half red shining through; two roundings.
+    EXPECT_NEAR(seen[0], 64, 2);
+    EXPECT_NEAR(seen[2], 128, 2);
+    EXPECT_NEAR(seen[3], 191, 2);
+  }
+}
+
 // An alpha below 1 in a material that is not declared translucent means nothing.
 TEST_F(Toon, OpaqueMaterialIgnoresAlpha) {
   const View v = view(32, 32, 40);
