@@ -33,7 +33,7 @@ struct Settings {
   std::string rinkaku;
   std::string video;
   std::string mesh;
-  int frames = 600;
+  int frames = 1200;
   int rounds = 5;
   long bit_rate = 6'000'000;
 };
@@ -87,10 +87,11 @@ struct Series {
   }
 };
 
-double median_ratio(const Series& ours, const Series& theirs) {
+void print_ratio(const char* name, const Series& ours, const Series& theirs) {
   std::vector<double> all;
   for (std::size_t i = 0; i < ours.runs.size(); ++i) all.push_back(theirs.runs[i].wall_s / ours.runs[i].wall_s);
-  return median(all);
+  std::printf("  %s %.3f (%.3f to %.3f)\n", name, median(all), *std::min_element(all.begin(), all.end()),
+              *std::max_element(all.begin(), all.end()));
 }
 
 // An orbit around the object at the distance at which its bounding rectangle covers `part` of the picture on average.
@@ -242,8 +243,8 @@ void compare(const Settings& settings, int width_px, int height_px) {
     std::printf("  %-22s %7.1f fps  %6.2f CPU ms a frame\n", names[i], series[i].fps(settings.frames),
                 series[i].cpu_ms(settings.frames));
   }
-  std::printf("  empty scene / transcode %.3f\n  object / overlay        %.3f\n", median_ratio(series[1], series[0]),
-              median_ratio(series[3], series[2]));
+  print_ratio("empty scene / transcode", series[1], series[0]);
+  print_ratio("object / overlay       ", series[3], series[2]);
   fs::remove_all(folder);
 }
 

@@ -57,10 +57,13 @@ ContourFinder::ContourFinder(const Mesh& mesh, const Topology& topology, const C
   front_parts_.resize(parts_.size());
 }
 
-const Contour& ContourFinder::find(const glm::dvec4& eye) {
+const Contour& ContourFinder::find(const glm::dvec4& eye, const ContourLists& lists) {
   classify(eye);
-  list_triangles();
-  list_edges();
+  result_.front_indices = result_.back_indices = result_.edges = {};
+  result_.front_parts = {};
+  if (lists.front) list_front();
+  if (lists.back) list_back();
+  if (lists.edges) list_edges();
   return result_;
 }
 
@@ -98,27 +101,36 @@ void ContourFinder::classify(const glm::dvec4& eye) {
   result_.front = front_;
 }
 
-void ContourFinder::list_triangles() {
+namespace {
+
+// Writes without a branch; the entry counts only if it is kept.
+void append(std::uint32_t*& to, const glm::uvec3& triangle, std::uint8_t keep) {
+  to[0] = triangle.x;
+  to[1] = triangle.y;
+  to[2] = triangle.z;
+  to += 3 * std::ptrdiff_t{keep};
+}
+
+}  // namespace
+
+void ContourFinder::list_front() {
   std::uint32_t* front = front_indices_.data();
-  std::uint32_t* back = back_indices_.data();
-  const auto append = [](std::uint32_t*& to, const glm::uvec3& triangle, std::uint8_t keep) {
-    to[0] = triangle.x;
-    to[1] = triangle.y;
-    to[2] = triangle.z;
-    to += 3 * std::ptrdiff_t{keep};
-  };
   for (std::size_t p = 0; p < parts_.size(); ++p) {
     const std::uint32_t* part_start = front;
     for (std::uint32_t f = parts_[p].first; f < parts_[p].first + parts_[p].count; ++f) {
       append(front, triangles_[f], seen_front_[f]);
-      append(back, triangles_[f], seen_back_[f]);
     }
     front_parts_[p] = {static_cast<std::uint32_t>(part_start - front_indices_.data()),
                        static_cast<std::uint32_t>(front - part_start)};
   }
   result_.front_indices = {front_indices_.data(), front};
-  result_.back_indices = {back_indices_.data(), back};
   result_.front_parts = front_parts_;
+}
+
+void ContourFinder::list_back() {
+  std::uint32_t* back = back_indices_.data();
+  for (std::size_t f = 0; f < triangles_.size(); ++f) append(back, triangles_[f], seen_back_[f]);
+  result_.back_indices = {back_indices_.data(), back};
 }
 
 void ContourFinder::list_edges() {

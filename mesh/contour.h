@@ -24,6 +24,13 @@ struct IndexRange {
   std::uint32_t count = 0;
 };
 
+/// Which lists find() makes; those not asked for are empty.
+struct ContourLists {
+  bool front = true;
+  bool back = true;
+  bool edges = true;
+};
+
 /// What one eye sees of a mesh. The spans live until the finder's next find() or its end.
 struct Contour {
   std::span<const std::uint8_t> front;  ///< per face: 1 if the eye is strictly on its outer side
@@ -48,15 +55,18 @@ class ContourFinder {
  public:
   ContourFinder(const Mesh& mesh, const Topology& topology, const ContourOptions& options = {});
 
-  const Contour& find(const glm::dvec4& eye);
-  const Contour& find(const glm::dvec3& eye) { return find(glm::dvec4(eye, 1.0)); }
+  const Contour& find(const glm::dvec4& eye, const ContourLists& lists = {});
+  const Contour& find(const glm::dvec3& eye, const ContourLists& lists = {}) {
+    return find(glm::dvec4(eye, 1.0), lists);
+  }
 
  private:
   struct EdgeFaces {
     std::uint32_t face0, face1;
   };
   void classify(const glm::dvec4& eye);
-  void list_triangles();
+  void list_front();
+  void list_back();
   void list_edges();
 
   ContourOptions options_;

@@ -54,9 +54,9 @@ struct Imported {
 /// part and ordered for the vertex cache.
 /// Throws Error (Input), one line naming the file and the remedy: missing, empty, unreadable or unknown file, nothing
 /// to draw in it, or one that crashes its reader or exceeds the limits. Error (Runtime) if the reader itself is not
-/// found. The file is read in a child process, `rinkaku-import`, found beside the running program, in
-/// ../libexec/rinkaku or where it was built; the environment's RINKAKU_IMPORT overrides that. Any thread; several at
-/// once are fine. Cost: about 10 ms and 2 microseconds a triangle.
+/// found. The file is read in a child process, `rinkaku-import`, found beside the running program (where installing
+/// puts it), in ../libexec/rinkaku (where a package may put it) or where it was built; the environment's RINKAKU_IMPORT
+/// overrides that. Any thread; several at once are fine. Cost: about 10 ms and 2 microseconds a triangle.
 Imported import(const std::filesystem::path& file, const ImportOptions& options = {});
 
 }  // namespace rinkaku::mesh

@@ -21,22 +21,32 @@ std::vector<unsigned> indices_of(const Mesh& mesh, const Part& part) {
   return indices;
 }
 
+void append(Level& level, const Part& part, const std::vector<unsigned>& indices) {
+  Part coarse = part;
+  coarse.first_triangle = static_cast<std::uint32_t>(level.triangles.size());
+  coarse.triangle_count = static_cast<std::uint32_t>(indices.size() / 3);
+  for (std::size_t i = 0; i < indices.size(); i += 3) {
+    level.triangles.emplace_back(indices[i], indices[i + 1], indices[i + 2]);
+  }
+  level.parts.push_back(std::move(coarse));
+}
+
 Level simplified(const Mesh& mesh, double ratio) {
   Level level;
   const double scale = meshopt_simplifyScale(&mesh.positions[0].x, mesh.positions.size(), sizeof(mesh.positions[0]));
   for (const Part& part : mesh.parts) {
     const std::vector<unsigned> whole = indices_of(mesh, part);
+    if (mesh.materials[part.material].texture >= 0) {
+      append(level, part, whole);
+      continue;
+    }
     std::vector<unsigned> kept(whole.size());
     const auto target = static_cast<std::size_t>(static_cast<double>(part.triangle_count) * ratio) * 3;
     float error = 0;
     kept.resize(meshopt_simplify(kept.data(), whole.data(), whole.size(), &mesh.positions[0].x, mesh.positions.size(),
                                  sizeof(mesh.positions[0]), target, 1.0f, meshopt_SimplifyLockBorder, &error));
     meshopt_optimizeVertexCache(kept.data(), kept.data(), kept.size(), mesh.positions.size());
-    Part coarse = part;
-    coarse.first_triangle = static_cast<std::uint32_t>(level.triangles.size());
-    coarse.triangle_count = static_cast<std::uint32_t>(kept.size() / 3);
-    for (std::size_t i = 0; i < kept.size(); i += 3) level.triangles.emplace_back(kept[i], kept[i + 1], kept[i + 2]);
-    level.parts.push_back(std::move(coarse));
+    append(level, part, kept);
     level.error = std::max(level.error, error * scale);
   }
   return level;

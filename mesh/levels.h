@@ -18,7 +18,8 @@ struct Level {
 /// fewer than 500 triangles are left; empty for small meshes and for those with vertex colours (which a coarser level
 /// would smear).
 ///
-/// Vertices are only left out, never moved; borders of parts and of open surfaces, and texture seams, stay as they are.
+/// Vertices are only left out, never moved; borders of parts and of open surfaces stay as they are. Textured parts stay
+/// whole: the error does not tell how far a texture slides.
 /// Garland and Heckbert, "Surface simplification using quadric error metrics", 1997 (through meshoptimizer).
 /// Cost: about 1 microsecond a triangle.
 std::vector<Level> levels(const Mesh& mesh);

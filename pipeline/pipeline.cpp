@@ -144,7 +144,7 @@ RenderReport render(const Prepared& prepared, const RenderOptions& options, cons
   StageReport& decode_report = line.report("decode");
   std::unique_ptr<track::Tracker> tracker;
   if (plan.runs("track")) {
-    tracker = make_tracker(prepared);
+    tracker = make_tracker(prepared, described);
     line.track.emplace_back(line.report("track"), [&](Work& work) { work.pose = tracker->track(work.frame); });
   }
 
@@ -178,12 +178,12 @@ RenderReport render(const Prepared& prepared, const RenderOptions& options, cons
   FramePool pool;
   passes::Blender blender;
   auto opacity = [](const Work& work) { return work.pose ? work.pose->opacity : 0.0; };
-  const std::unique_ptr<sink::Sink> sink = open_sink(prepared, options, described);
-  std::optional<LayerOutput> layers;
+  const Output output = open_output(prepared, options, described);
+  Output layers;
   if (plan.runs("layers")) {
-    layers.emplace(options, described);
+    layers = open_layers(prepared, options, described);
     line.draw.emplace_back(line.report("layers"), [&](Work& work) {
-      layers->sink->write(straight_alpha_frame(work.frame, layer, opacity(work), pool));
+      layers.sink->write(straight_alpha_frame(work.frame, layer, opacity(work), pool));
     });
   }
   if (plan.runs("composite")) {
@@ -199,7 +199,7 @@ RenderReport render(const Prepared& prepared, const RenderOptions& options, cons
       work.frame = straight_alpha_frame(work.frame, layer, opacity(work), pool);
     });
   }
-  line.encode.emplace_back(line.report("encode"), [&](Work& work) { sink->write(work.frame); });
+  line.encode.emplace_back(line.report("encode"), [&](Work& work) { output.sink->write(work.frame); });
 
   // The frame's way: source -> decoded -> tracked -> (drawn here) -> finished -> sink.
   const auto start = std::chrono::steady_clock::now();
@@ -225,7 +225,7 @@ RenderReport render(const Prepared& prepared, const RenderOptions& options, cons
   if (plan.runs("draw") && result.frames > 0 && result.posed_frames == 0 && !result.interrupted) {
     throw no_pose_error(prepared, described, result.frames);
   }
-  for (sink::Sink* each : {layers ? layers->sink.get() : nullptr, sink.get()}) {
+  for (sink::Sink* each : {output.sink.get(), layers.sink.get()}) {
     if (each == nullptr) continue;
     each->finish();
     if (!each->notice().empty()) result.notices.push_back(each->notice());

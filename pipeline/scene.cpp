@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <fstream>
+#include <numeric>
 #include <string_view>
 #include <utility>
 
@@ -66,6 +67,18 @@ std::string SceneReader::pattern(const Table& table, std::string_view key, std::
   return toml::resolved(text, document_.file()).string();
 }
 
+Rational read_fps(const Table& plate) {
+  if (plate.has("video"))
+    throw plate.error_at("fps", "goes with 'images': a video has times of its own", "leave it out");
+  const double fps = *plate.number("fps", {0.001, 1000});
+  // 23.976 (or 23.98), 29.97 and their like stand for 24 and 30 times 1000/1001.
+  const std::int64_t whole = std::llround(fps);
+  const bool ntsc = whole > 0 && (whole % 12 == 0 || whole % 15 == 0);
+  if (ntsc && std::abs(fps - static_cast<double>(whole) * 1000 / 1001) < 0.005) return {whole * 1000, 1001};
+  const std::int64_t millionths = std::llround(fps * 1e6), divisor = std::gcd(millionths, std::int64_t{1'000'000});
+  return {millionths / divisor, 1'000'000 / divisor};
+}
+
 PlateScene SceneReader::read_plate(const Table& plate) const {
   PlateScene scene;
   if (!options_.input.empty()) {
@@ -82,6 +95,7 @@ PlateScene SceneReader::read_plate(const Table& plate) const {
       throw plate.error_at("images", "names a folder that doesn't exist: " + folder.string());
     }
   }
+  if (plate.has("fps")) scene.fps = read_fps(plate);
   if (plate.has("camera")) scene.camera = existing_file(plate, "camera");
   return scene;
 }
@@ -125,8 +139,12 @@ TrackScene SceneReader::read_track(const Table& track) const {
     scene.from = PoseFileTrack{existing_file(track, "poses")};
   } else {
     scene.from = read_locked(track.required("locked", track.table("locked")));
-    for (const std::string_view key : {"smoothing", "hold_s", "fade_s"}) {
-      if (track.has(key)) throw track.error_at(key, "has no meaning beside 'locked'", "leave it out");
+    if (track.has("smoothing")) throw track.error_at("smoothing", "has no meaning beside 'locked'", "leave it out");
+  }
+  // Only markers get lost.
+  for (const std::string_view key : {"hold_s", "fade_s"}) {
+    if (track.has(key) && from != "marker" && from != "board") {
+      throw track.error_at(key, "has no meaning beside '" + std::string(from) + "'", "leave it out");
     }
   }
   scene.smoothing.on = from == "marker" || from == "board";

@@ -10,6 +10,8 @@
 
 #include <glm/vec3.hpp>
 
+#include "pipeline/frame/picture_format.h"
+
 namespace rinkaku::pipeline {
 
 /// The scene file as plain values: validated, defaults filled in, paths made absolute. Lengths in metres, angles in the
@@ -17,6 +19,7 @@ namespace rinkaku::pipeline {
 
 struct PlateScene {
   std::string input;             ///< video file or image sequence pattern; absolute
+  std::optional<Rational> fps;   ///< of an image sequence
   std::filesystem::path camera;  ///< camera.yml; empty if there is none (then nothing can be drawn)
 };
 
@@ -47,6 +50,7 @@ struct Smoothing {
 struct TrackScene {
   std::variant<MarkerTrack, BoardTrack, PoseFileTrack, LockedTrack> from;
   Smoothing smoothing;  ///< on by default for marker and board
+  // For marker and board only:
   double hold_s = 0.3;  ///< a lost marker's last pose is kept for so long
   double fade_s = 0.3;  ///< then the CG fades out over this time
 };

@@ -9,7 +9,7 @@ inline toml::Schema scene_schema() {
   return {
       {.path = "", .keys = {"plate", "track", "light", "object", "output"}},
       {.path = "plate",
-       .keys = {"video", "images", "camera"},
+       .keys = {"video", "images", "fps", "camera"},
        .refused = {{"device", "this version takes recordings only: give 'video' or 'images'"}}},
       {.path = "track", .keys = {"marker", "board", "poses", "locked", "smoothing", "hold_s", "fade_s"}},
       {.path = "track.marker", .keys = {"dictionary", "id", "size_m"}},

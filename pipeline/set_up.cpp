@@ -2,9 +2,15 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <optional>
+#include <set>
+#include <utility>
+
+#include <sys/stat.h>
 
 #include "pipeline/passes/composite/blend.h"
 #include "pipeline/passes/composite/straight_alpha.h"
+#include "pipeline/sink/output_names.h"
 #include "pipeline/track/camera_file.h"
 #include "pipeline/track/make_tracker.h"
 
@@ -26,13 +32,46 @@ std::string no_streams_because(const std::string& input, const std::string& outp
   return {};
 }
 
-// The input would be written over while it is read.
+// What was filmed would be written over.
 void refuse_own_input(const std::string& output, const std::string& input) {
-  std::error_code error;
-  const bool same_file = fs::exists(output, error) && fs::equivalent(output, input, error);
-  const bool same_name = fs::weakly_canonical(fs::absolute(output, error), error) ==
-                         fs::weakly_canonical(fs::absolute(input, error), error);
-  if (same_file || same_name) throw input_error(output, "is the input itself", "choose another output");
+  using FileId = std::pair<dev_t, ino_t>;
+  const auto id_of = [](const std::string& path) -> std::optional<FileId> {
+    struct stat status {};
+    if (::stat(path.c_str(), &status) != 0) return std::nullopt;
+    return FileId{status.st_dev, status.st_ino};
+  };
+  std::set<std::optional<FileId>> input_ids;
+  for (const std::string& path : source::input_files(input)) input_ids.insert(id_of(path));
+  for (const std::string& path : sink::existing_files(output)) {
+    if (input_ids.contains(id_of(path))) throw input_error(path, "is the input itself", "choose another output");
+  }
+}
+
+std::string layers_pattern(const RenderOptions& options) {
+  return (fs::path(options.layers_folder) / "cg_%06d.png").string();
+}
+
+Output open_in_folder(const sink::Options& to, const sink::Incoming& in) {
+  Output output;
+  const fs::path folder = fs::path(to.path).parent_path();
+  if (sink::is_sequence(to.path) && !folder.empty()) output.folder = std::make_unique<MadeFolder>(folder);
+  output.sink = sink::open(to, in);
+  return output;
+}
+
+// Players turn the video, programs that calibrate may do so too, and rinkaku doesn't.
+void refuse_turned_camera(const Prepared& prepared, const source::Description& described) {
+  const CameraModel& camera = *prepared.camera;
+  const PictureFormat& format = described.format;
+  const bool swapped = camera.width_px == format.height_px && camera.height_px == format.width_px;
+  if (!swapped || described.rotation_deg % 180 == 0) return;
+  const auto size = [](int width, int height) { return std::to_string(width) + "x" + std::to_string(height); };
+  throw input_error(prepared.scene.plate.camera.string(),
+                    "the camera was calibrated at " + size(camera.width_px, camera.height_px) + ", but " +
+                        described.name + " is stored as " + size(format.width_px, format.height_px) +
+                        ": players turn it by " + std::to_string(described.rotation_deg) +
+                        " degrees anticlockwise, rinkaku works on the stored picture",
+                    "calibrate with 'rinkaku calibrate' from a video filmed the same way, it doesn't turn either");
 }
 
 sink::Incoming incoming(const source::Description& described, const PictureFormat& format) {
@@ -66,25 +105,29 @@ Prepared prepare(Scene scene, const RenderOptions& options) {
 }
 
 std::unique_ptr<source::Source> open_source(const Prepared& prepared) {
-  auto source = source::open(prepared.scene.plate.input);
+  source::OpenOptions options;
+  if (prepared.scene.plate.fps) options.image_rate = *prepared.scene.plate.fps;
+  auto source = source::open(prepared.scene.plate.input, options);
   const PictureFormat& format = source->description().format;
   if (prepared.camera) {
+    refuse_turned_camera(prepared, source->description());
     track::check_resolution(*prepared.camera, prepared.scene.plate.camera, format.width_px, format.height_px);
   }
   return source;
 }
 
-std::unique_ptr<track::Tracker> make_tracker(const Prepared& prepared) {
+std::unique_ptr<track::Tracker> make_tracker(const Prepared& prepared, const source::Description& described) {
   const TrackScene& scene = *prepared.scene.track;
   struct Convert {
     track::TrackOptions& to;
+    double first_time_s;
     void operator()(const MarkerTrack& m) const { to.from = track::FromMarker{m.dictionary, m.id, m.size_m}; }
     void operator()(const BoardTrack& b) const { to.from = track::FromBoard{b.board}; }
-    void operator()(const PoseFileTrack& p) const { to.from = track::FromPoseFile{p.poses}; }
+    void operator()(const PoseFileTrack& p) const { to.from = track::FromPoseFile{p.poses, first_time_s}; }
     void operator()(const LockedTrack& l) const { to.from = track::LockedCamera{l.position_m, l.look_at_m, l.up}; }
   };
   track::TrackOptions options;
-  std::visit(Convert{options}, scene.from);
+  std::visit(Convert{options, described.first_time_s()}, scene.from);
   options.where = prepared.scene.file.string();
   options.hold_s = scene.hold_s;
   options.fade_s = scene.fade_s;
@@ -96,8 +139,7 @@ std::unique_ptr<track::Tracker> make_tracker(const Prepared& prepared) {
   return track::make_tracker(options, *prepared.camera);
 }
 
-std::unique_ptr<sink::Sink> open_sink(const Prepared& prepared, const RenderOptions& options,
-                                      const source::Description& described) {
+Output open_output(const Prepared& prepared, const RenderOptions& options, const source::Description& described) {
   const OutputScene& output = prepared.scene.output;
   if (output.path.empty()) {
     throw input_error(prepared.scene.file.string(), "names no output", "give -o OUT, or add [output] with 'video'");
@@ -107,6 +149,10 @@ std::unique_ptr<sink::Sink> open_sink(const Prepared& prepared, const RenderOpti
                       "leave it out, or give -o -");
   }
   if (output.path != "-") refuse_own_input(output.path, prepared.scene.plate.input);
+  if (prepared.plan.runs("layers") && sink::share_a_file(output.path, layers_pattern(options))) {
+    throw input_error(output.path, "the layers are to be written under the same names",
+                      "choose another output, or another folder for --layers");
+  }
   sink::Options to;
   to.path = output.path;
   to.codec = output.codec;
@@ -116,15 +162,15 @@ std::unique_ptr<sink::Sink> open_sink(const Prepared& prepared, const RenderOpti
   sink::Incoming in = incoming(
       described, prepared.plan.runs("unmultiply") ? straight_alpha_format(described.format) : described.format);
   if (prepared.plan.runs("copy-streams")) in.copy_streams_from = prepared.scene.plate.input;
-  return sink::open(to, in);
+  return open_in_folder(to, in);
 }
 
-LayerOutput::LayerOutput(const RenderOptions& options, const source::Description& described)
-    : folder(options.layers_folder) {
+Output open_layers(const Prepared& prepared, const RenderOptions& options, const source::Description& described) {
   sink::Options to;
-  to.path = (fs::path(options.layers_folder) / "cg_%06d.png").string();
+  to.path = layers_pattern(options);
+  refuse_own_input(to.path, prepared.scene.plate.input);
   to.overwrite = options.overwrite;
-  sink = sink::open(to, incoming(described, straight_alpha_format(described.format)));
+  return open_in_folder(to, incoming(described, straight_alpha_format(described.format)));
 }
 
 std::int64_t frames_expected(const source::Description& described, const RenderOptions& options) {

@@ -19,17 +19,19 @@ namespace rinkaku::pipeline {
 /// The scene's plate; checks that the camera was calibrated for its size.
 std::unique_ptr<source::Source> open_source(const Prepared& prepared);
 
-std::unique_ptr<track::Tracker> make_tracker(const Prepared& prepared);
+std::unique_ptr<track::Tracker> make_tracker(const Prepared& prepared, const source::Description& described);
 
-std::unique_ptr<sink::Sink> open_sink(const Prepared& prepared, const RenderOptions& options,
-                                      const source::Description& described);
-
-/// PNGs of the CG alone in the layers folder: cg_000000.png, ... The folder is made if it isn't there.
-struct LayerOutput {
-  LayerOutput(const RenderOptions& options, const source::Description& described);
-  MadeFolder folder;  // outlives the sink, which may take its files away again
+/// A sink and the folder that was made for it, if its pictures' folder wasn't there.
+struct Output {
+  std::unique_ptr<MadeFolder> folder;  // outlives the sink, which may take its files away again
   std::unique_ptr<sink::Sink> sink;
 };
+
+/// Refuses to write over the input, or over the layers.
+Output open_output(const Prepared& prepared, const RenderOptions& options, const source::Description& described);
+
+/// PNGs of the CG alone in the layers folder: cg_000000.png, ...
+Output open_layers(const Prepared& prepared, const RenderOptions& options, const source::Description& described);
 
 /// How many frames the run will have; 0 if the source doesn't tell.
 std::int64_t frames_expected(const source::Description& described, const RenderOptions& options);

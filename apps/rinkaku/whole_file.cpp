@@ -32,17 +32,21 @@ void WholeFile::write(std::string_view text) const {
   std::string hidden = ".";
   hidden.append(path_.filename().string()).append(".").append(std::to_string(getpid()));
   const std::filesystem::path unfinished = path_.parent_path() / hidden;
+  std::error_code error, ignored;
   {
     std::ofstream out(unfinished, std::ios::binary);
     out << text;
     out.flush();
     if (!out) {
-      std::error_code ignored;
       std::filesystem::remove(unfinished, ignored);
       throw runtime_failure(path_.string(), "it could not be written", "check that the disk is not full");
     }
   }
-  std::filesystem::rename(unfinished, path_);
+  std::filesystem::rename(unfinished, path_, error);
+  if (error) {
+    std::filesystem::remove(unfinished, ignored);
+    throw runtime_failure(path_.string(), "it can't be put in place: " + error.message());
+  }
 }
 
 }  // namespace rinkaku::app

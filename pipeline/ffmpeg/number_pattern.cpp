@@ -8,25 +8,8 @@
 #include "pipeline/frame/error.h"
 
 namespace rinkaku::ffmpeg {
-namespace {
 
 namespace fs = std::filesystem;
-
-// The number of "a0012.png" by "a%04d.png"; empty if the name is no match.
-std::optional<std::int64_t> number_of(const NumberPattern& pattern, const std::string& name) {
-  if (!name.starts_with(pattern.prefix) || !name.ends_with(pattern.suffix)) return {};
-  if (name.size() <= pattern.prefix.size() + pattern.suffix.size()) return {};
-  const char* begin = name.data() + pattern.prefix.size();
-  const char* end = name.data() + name.size() - pattern.suffix.size();
-  std::int64_t number = 0;
-  const auto [rest, error] = std::from_chars(begin, end, number);
-  if (error != std::errc() || rest != end || number < 0) return {};
-  // "7.png" is no match for "%04d.png".
-  if (fs::path(pattern.file_name(number)).filename() != name) return {};
-  return number;
-}
-
-}  // namespace
 
 std::string NumberPattern::file_name(std::int64_t number) const {
   std::string digits_text = std::to_string(number);
@@ -34,6 +17,19 @@ std::string NumberPattern::file_name(std::int64_t number) const {
     digits_text.insert(0, static_cast<std::size_t>(digits) - digits_text.size(), '0');
   }
   return (fs::path(folder) / (prefix + digits_text + suffix)).string();
+}
+
+std::optional<std::int64_t> NumberPattern::number_of(const std::string& name) const {
+  if (!name.starts_with(prefix) || !name.ends_with(suffix)) return {};
+  if (name.size() <= prefix.size() + suffix.size()) return {};
+  const char* begin = name.data() + prefix.size();
+  const char* end = name.data() + name.size() - suffix.size();
+  std::int64_t number = 0;
+  const auto [rest, error] = std::from_chars(begin, end, number);
+  if (error != std::errc() || rest != end || number < 0) return {};
+  // "7.png" is no match for "%04d.png".
+  if (fs::path(file_name(number)).filename() != name) return {};
+  return number;
 }
 
 std::optional<NumberPattern> parse_number_pattern(const std::string& path) {
@@ -53,7 +49,7 @@ std::vector<std::int64_t> existing_numbers(const NumberPattern& pattern) {
   std::error_code error;
   std::vector<std::int64_t> numbers;
   for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
-    if (const auto number = number_of(pattern, entry->path().filename().string())) numbers.push_back(*number);
+    if (const auto number = pattern.number_of(entry->path().filename().string())) numbers.push_back(*number);
   }
   if (error) throw input_error(folder.string(), "the folder can't be read: " + error.message(), "check the path");
   std::sort(numbers.begin(), numbers.end());

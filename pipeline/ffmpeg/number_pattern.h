@@ -15,6 +15,8 @@ struct NumberPattern {
   int digits = 0;  ///< at least as many, filled up with zeros; 0 for as many as needed
 
   std::string file_name(std::int64_t number) const;  ///< with the folder
+  /// The number of a name without its folder: 12 of "a0012.png"; empty if it is none of the pattern's.
+  std::optional<std::int64_t> number_of(const std::string& name) const;
 };
 
 /// Empty if the last part of the path holds not exactly one %d, %Nd or %0Nd ("%%" is no percent sign here).

@@ -32,8 +32,8 @@ glm::dvec2 distort(const CameraModel& camera, glm::dvec2 normalised);
 /// Costs some 4,000 evaluations: call it once a camera.
 double max_undistorted_radius(const CameraModel& camera);
 
-/// The inverse of distort(): Newton's method, to 1e-12. Empty where the distortion folds, that is, where no point inside
-/// `max_radius` (from max_undistorted_radius) is seen there.
+/// The inverse of distort(): Newton's method, to 1e-12. Empty where the distortion folds, that is, where no point
+/// inside `max_radius` (from max_undistorted_radius) is seen there.
 std::optional<glm::dvec2> undistort(const CameraModel& camera, glm::dvec2 distorted, double max_radius);
 
 inline glm::dvec2 to_pixels(const CameraModel& camera, glm::dvec2 normalised) {

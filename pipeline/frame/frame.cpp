@@ -26,6 +26,10 @@ std::ptrdiff_t aligned_stride(int row_bytes) {
   return static_cast<std::ptrdiff_t>((static_cast<std::size_t>(row_bytes) + alignment - 1) / alignment * alignment);
 }
 
+// Whether nobody else holds this storage. Taking a reference and giving it back (an atomic operation that acquires)
+// makes sure that whoever held it before, on whichever thread, is done with the samples.
+bool held_once(const std::shared_ptr<void>& storage) { return std::shared_ptr<void>(storage).use_count() == 2; }
+
 }  // namespace
 
 struct FramePool::Shelf {
@@ -92,14 +96,14 @@ Frame FramePool::allocate(const PictureFormat& format) {
   void* address = block.bytes.get();
   auto shelf = shelf_;
   auto shared_block = std::make_shared<Block>(std::move(block));
-  frame.storage = std::shared_ptr<void>(
-      address, [shelf, shared_block](void*) { shelf->give_back(std::move(*shared_block)); });
+  frame.storage =
+      std::shared_ptr<void>(address, [shelf, shared_block](void*) { shelf->give_back(std::move(*shared_block)); });
   frame.writable = true;
   return frame;
 }
 
 void FramePool::make_writable(Frame& frame) {
-  if (frame.writable) return;
+  if (frame.writable && held_once(frame.storage)) return;
   Frame own = allocate(frame.format);
   for (int p = 0; p < frame.format.pixels.planes; ++p) {
     const Plane& from = frame.planes[p];

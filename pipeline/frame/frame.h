@@ -20,19 +20,21 @@ struct Plane {
 /// One filmed picture on its way from source to sink, under one number.
 ///
 /// A value with shared storage: copying a Frame copies no sample. Whoever wants to write into the planes calls
-/// make_writable() first. Crosses threads freely.
+/// FramePool::make_writable() first. Crosses threads freely.
 struct Frame {
-  std::int64_t number = 0;  ///< counted by the source from 0; the same everywhere in the pipeline
-  std::int64_t pts = 0;     ///< presentation time in units of time_base
+  std::int64_t number = 0;    ///< counted by the source from 0; the same everywhere in the pipeline
+  std::int64_t pts = 0;       ///< presentation time in units of time_base
   std::int64_t duration = 0;  ///< in units of time_base, 0 if unknown
   Rational time_base{1, 1};
-  bool key = false;         ///< a key frame in the source
+  bool key = false;  ///< a key frame in the source
   bool interlaced = false;
   bool top_field_first = false;
   PictureFormat format;
   std::array<Plane, 4> planes{};
   std::shared_ptr<void> storage;  ///< keeps the planes alive
-  bool writable = false;          ///< nobody else reads this storage
+  /// The storage is memory of our own, not a decoder's. It may be written as long as no copy of the frame shares it,
+  /// which make_writable() sees to: the flag is copied along and says nothing about copies.
+  bool writable = false;
 
   double time_s() const { return static_cast<double>(pts) * time_base.value(); }
 };
@@ -46,7 +48,8 @@ class FramePool {
   /// A frame of this format with unset samples, rows aligned to 64 bytes, writable.
   Frame allocate(const PictureFormat& format);
 
-  /// Gives the frame storage of its own (samples copied) unless it has it already.
+  /// Gives the frame storage of its own (samples copied) unless it has it already: writable, and held by this frame
+  /// alone. Copies made later share the storage again.
   void make_writable(Frame& frame);
 
  private:

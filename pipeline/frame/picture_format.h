@@ -35,10 +35,10 @@ struct PixelFormat {
   std::string name;  ///< FFmpeg's name, e.g. "yuv420p10le"
   ColourModel model = ColourModel::Yuv;
   int planes = 3;
-  int components = 3;          ///< alpha included
-  bool has_alpha = false;      ///< straight, always the last component
-  bool big_endian = false;     ///< for samples of two bytes
-  int log2_chroma_width = 0;   ///< the chroma grid's width is ceil(width / 2^this); 0 for Grey and Rgb
+  int components = 3;         ///< alpha included
+  bool has_alpha = false;     ///< straight, always the last component
+  bool big_endian = false;    ///< for samples of two bytes
+  int log2_chroma_width = 0;  ///< the chroma grid's width is ceil(width / 2^this); 0 for Grey and Rgb
   int log2_chroma_height = 0;
   std::array<Component, 4> component{};
   bool operator==(const PixelFormat&) const = default;
@@ -70,9 +70,7 @@ struct PictureFormat {
   int component_height_px(int component) const {
     return is_chroma(component) ? ceil_shift(height_px, pixels.log2_chroma_height) : height_px;
   }
-  bool is_chroma(int component) const {
-    return pixels.model == ColourModel::Yuv && (component == 1 || component == 2);
-  }
+  bool is_chroma(int component) const { return pixels.model == ColourModel::Yuv && (component == 1 || component == 2); }
 
  private:
   static int ceil_shift(int value, int shift) { return (value + (1 << shift) - 1) >> shift; }

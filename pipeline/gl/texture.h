@@ -11,7 +11,8 @@ namespace rinkaku::gl {
 class Texture {
  public:
   Texture() = default;
-  /// `rgba`: width * height * 4 bytes, rows from the top.
+  /// `rgba`: width * height * 4 bytes, rows from the top. A side longer than the driver takes is halved until it fits;
+  /// texture coordinates stay as they were. Throws Error (Runtime) if the driver has no memory for it.
   Texture(int width_px, int height_px, std::span<const std::uint8_t> rgba);
   GLuint name() const { return handle_.name(); }
 

@@ -54,9 +54,11 @@ DrawnObject::DrawnObject(const mesh::Mesh& mesh, const glm::dmat4& world_from_ob
       object_from_world_(glm::inverse(world_from_object)),
       world_from_normal_(glm::transpose(glm::inverse(glm::dmat3(world_from_object)))),
       mirrored_(glm::determinant(glm::dmat3(world_from_object)) < 0),
-      scale_(std::cbrt(std::abs(glm::determinant(glm::dmat3(world_from_object))))),
       mesh_array_(make_vertex_array()),
       contour_array_(make_vertex_array()) {
+  for (int axis = 0; axis < 3; ++axis) {
+    largest_scale_ = std::max(largest_scale_, glm::length(glm::dvec3(world_from_object[axis])));
+  }
   centre_ = glm::dvec3(world_from_object * glm::dvec4(mesh::bounding_box(mesh.positions).centre(), 1.0));
   const mesh::Topology topology = mesh::topology(mesh);
   for (std::uint8_t flag : topology.component_two_sided) two_sided_ = two_sided_ || flag != 0;
@@ -75,12 +77,23 @@ DrawnObject::DrawnObject(const mesh::Mesh& mesh, const glm::dmat4& world_from_ob
 }
 
 void DrawnObject::collect_vertices(const mesh::Mesh& mesh, const mesh::Topology& topology) {
+  // Outline normals are unit vectors in the world, brought back to the object's coordinates, so that uneven scales push
+  // at right angles to the surface as well. The longest is made 1, as the vertex format needs it.
+  const glm::dmat3 object_from_world_linear(object_from_world_);
+  std::vector<glm::dvec3> push(topology.outline_normals.size());
+  double longest = 0;
+  for (std::size_t p = 0; p < push.size(); ++p) {
+    push[p] = object_from_world_linear *
+              glm::normalize(glm::dmat3(world_from_normal_) * glm::dvec3(topology.outline_normals[p]));
+    longest = std::max(longest, glm::length(push[p]));
+  }
+  push_m_ = 1 / longest;
   vertices_.resize(mesh.positions.size());
   for (std::size_t v = 0; v < vertices_.size(); ++v) {
     Vertex& out = vertices_[v];
     out.position = mesh.positions[v];
     out.normal = snorm(mesh.normals[v], 0);
-    out.outline_normal = snorm(topology.outline_normals[mesh.welded[v]], 0);
+    out.outline_normal = snorm(glm::vec3(push[mesh.welded[v]] * push_m_), 0);
     out.uv = mesh.uvs.empty() ? glm::vec2(0) : mesh.uvs[v];
     out.colour = unorm(mesh.colours.empty() ? glm::vec4(1) : mesh.colours[v]);
   }
@@ -134,17 +147,19 @@ const Look& DrawnObject::look(const View& view, const PixelRect& picture) {
   const RigidTransform world_from_camera = inverse(view.camera_from_world);
   look_.distance_m = glm::length(centre_ - world_from_camera.translation_m);
   const glm::dvec3 eye = glm::dvec3(object_from_world_ * glm::dvec4(world_from_camera.translation_m, 1.0));
-  look_.contour = &levels_.front().finder.find(eye);
   SurfaceLevel& surface = surface_for(view);
-  look_.surface = &surface == &levels_.front() ? look_.contour : &surface.finder.find(eye);
-  look_.overlap_px = &surface == &levels_.front() ? 0.0f : 1.0f;
+  const bool whole = &surface == &levels_.front();
+  look_.contour = &levels_.front().finder.find(eye, {.front = whole, .back = false, .edges = true});
+  look_.surface = whole ? look_.contour : &surface.finder.find(eye, {.front = true, .back = false, .edges = false});
+  look_.overlap_px = whole ? 0.0f : 1.0f;
   return look_;
 }
 
 DrawnObject::SurfaceLevel& DrawnObject::surface_for(const View& view) {
   constexpr double most_px = 0.5;
   if (look_.crosses_eye_plane) return levels_.front();
-  const double px_per_unit = view.camera.fx_px * scale_ / nearest_m_;
+  // The most that one of the mesh's units takes, along the axis that is stretched most.
+  const double px_per_unit = view.camera.fx_px * largest_scale_ / nearest_m_;
   std::size_t level = 0;
   while (level + 1 < levels_.size() && levels_[level + 1].error * px_per_unit <= most_px) ++level;
   return levels_[level];

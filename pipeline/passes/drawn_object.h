@@ -62,8 +62,8 @@ class DrawnObject {
   /// Unit normals in the world are normalize(this * normal).
   const glm::mat3& world_from_normal() const { return world_from_normal_; }
   bool two_sided() const { return two_sided_; }
-  /// Metres that one of the mesh's units takes; the mean where axes are scaled differently.
-  double scale() const { return scale_; }
+  /// Metres in the world that an outline normal of length 1 in the vertex buffer stands for.
+  double push_m() const { return push_m_; }
 
  private:
   struct Vertex {
@@ -103,7 +103,8 @@ class DrawnObject {
   std::vector<EdgeVertices> edges_;
   std::vector<SurfaceLevel> levels_;
   double nearest_m_ = 0;
-  double scale_ = 1;  // metres a unit of the mesh, by volume
+  double push_m_ = 1;
+  double largest_scale_ = 0;  // metres that one of the mesh's units takes at most
   Look look_;
 
   gl::StaticBuffer vertex_buffer_;

@@ -13,7 +13,7 @@ struct DrawCall {
   const View& view;
   glm::mat4 clip_from_object;  ///< composed in double, rounded once
   glm::vec2 viewport_px;
-  float focal_px = 0;  ///< pixels that one unit of the object takes at a distance of 1 m
+  float focal_px = 0;  ///< pixels that an outline normal of length 1 takes at a distance of 1 m
 };
 
 /// One way of drawing an object: its shading, its outline, ... An object has a list of them.

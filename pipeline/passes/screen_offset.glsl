@@ -2,7 +2,7 @@
 
 uniform mat4 clip_from_object;
 uniform vec2 viewport_px;
-uniform float focal_px;      // times the object's scale: pixels that one of its units takes at a distance of 1 m
+uniform float focal_px;  // pixels that an outline normal of length 1 takes at a distance of 1 m
 
 // The clip position moved by `distance_px` in the direction in which the outline normal points on the screen.
 // With `by_slope` 1 the distance shrinks with the normal's length on the screen, so that only what lies near the contour
@@ -12,7 +12,7 @@ vec4 pushed(vec4 clip, vec3 outline_normal, float distance_px, float by_slope) {
   // How the pixel moves when the vertex moves along its normal, times w squared.
   vec2 d = (n.xy * clip.w - clip.xy * n.w) * viewport_px;
   float len = length(d);
-  // A unit normal at right angles to the line of sight moves the pixel by focal / w; d is twice that, times w squared.
+  // A normal at right angles to the line of sight moves the pixel by focal / w; d is twice that, times w squared.
   float slope = min(len / (2.0 * focal_px * abs(clip.w)), 1.0);
   vec2 direction = len > 0.0 ? d / len : vec2(0.0);
   clip.xy += direction * (distance_px * mix(1.0, slope, by_slope) * 2.0 * abs(clip.w)) / viewport_px;

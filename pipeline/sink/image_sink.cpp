@@ -5,7 +5,6 @@
 #include <filesystem>
 
 #include "pipeline/frame/error.h"
-#include "pipeline/sink/pending_file.h"
 
 namespace rinkaku::sink {
 
@@ -29,12 +28,6 @@ ImageSink::ImageSink(const Options& options, const Incoming& incoming, const AVC
   encoder_ = std::make_unique<Encoder>(codec, nullptr, options_, incoming);
 }
 
-ImageSink::~ImageSink() {
-  if (finished_) return;
-  std::error_code ignored;
-  for (const std::string& path : written_) std::filesystem::remove(path, ignored);
-}
-
 void ImageSink::write(const Frame& frame) {
   if (!pattern_ && frames_ > 0) {
     throw input_error(options_.path, "holds one image and more frames came", "give a pattern like out/%04d.png");
@@ -52,17 +45,15 @@ void ImageSink::drain() {
 }
 
 void ImageSink::write_file(const std::string& path, const AVPacket& packet) {
-  PendingFile file(path, true, input_);
+  const PendingFile& file = pending_.emplace_back(path, true, input_);
   AVIOContext* io = nullptr;
   int code = avio_open(&io, file.url().c_str(), AVIO_FLAG_WRITE);
-  if (code < 0) throw_write_error(path, code, written_.empty());
+  if (code < 0) throw_write_error(path, code, pending_.size() == 1);
   avio_write(io, packet.data, packet.size);
   avio_flush(io);
   code = io->error;
   const int closed = avio_closep(&io);
   if (code < 0 || closed < 0) throw_write_error(path, code < 0 ? code : closed);
-  file.commit();
-  written_.push_back(path);
 }
 
 void ImageSink::finish() {
@@ -70,6 +61,7 @@ void ImageSink::finish() {
   if (frames_ == 0) throw runtime_failure(options_.path, "no frame came, so nothing is written");
   encoder_->flush();
   drain();
+  for (PendingFile& file : pending_) file.commit();
   finished_ = true;
 }
 

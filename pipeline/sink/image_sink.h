@@ -1,23 +1,23 @@
 #pragma once
 
+#include <deque>
 #include <memory>
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "pipeline/ffmpeg/number_pattern.h"
 #include "pipeline/sink/encoder.h"
+#include "pipeline/sink/pending_file.h"
 #include "pipeline/sink/sink.h"
 
 namespace rinkaku::sink {
 
-/// Still images, each under its frame's number; see sink::open(). Without a pattern it takes one frame.
+/// Still images, each under its frame's number; see sink::open(). Without a pattern it takes one frame. All lie under
+/// hidden names until finish(), so that pictures of an earlier run stay whole till then.
 class ImageSink final : public Sink {
  public:
   /// Throws Error (Input) if any file of the pattern exists already, unless Options::overwrite.
   ImageSink(const Options& options, const Incoming& incoming, const AVCodec& codec);
-  /// Removes what was written if finish() was not called.
-  ~ImageSink() override;
 
   void write(const Frame& frame) override;
   void finish() override;
@@ -33,7 +33,7 @@ class ImageSink final : public Sink {
   std::unique_ptr<Encoder> encoder_;
   ffmpeg::PacketPtr packet_;
   std::int64_t frames_ = 0;
-  std::vector<std::string> written_;
+  std::deque<PendingFile> pending_;  ///< written; put in place by finish()
   bool finished_ = false;
 };
 

@@ -116,7 +116,7 @@ bool StreamCopy::add_stream(AVStream& from) {
 }
 
 void StreamCopy::copy_video_side_data(const AVStream& from, AVStream& to) const {
-  constexpr std::array<AVPacketSideDataType, 4> types{AV_PKT_DATA_MASTERING_DISPLAY_METADATA,
+  constexpr std::array<AVPacketSideDataType, 5> types{AV_PKT_DATA_DISPLAYMATRIX, AV_PKT_DATA_MASTERING_DISPLAY_METADATA,
                                                       AV_PKT_DATA_CONTENT_LIGHT_LEVEL, AV_PKT_DATA_STEREO3D,
                                                       AV_PKT_DATA_SPHERICAL};
   for (const AVPacketSideDataType type : types) {

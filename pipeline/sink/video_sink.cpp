@@ -28,6 +28,12 @@ bool holds_streams(const std::string& path) {
   return !path.empty() && (path.find_first_of("%*?[") == std::string::npos || std::filesystem::exists(path));
 }
 
+// A display matrix whose 2x2 part has a negative determinant.
+bool mirrors_picture(const std::int32_t* matrix) {
+  const auto entry = [matrix](int i) { return static_cast<double>(matrix[i]); };
+  return entry(0) * entry(4) - entry(1) * entry(3) < 0;
+}
+
 }  // namespace
 
 VideoSink::VideoSink(const Options& options, const Incoming& incoming)
@@ -104,14 +110,19 @@ void VideoSink::add_video_stream() {
 }
 
 void VideoSink::add_rotation() {
-  if (incoming_.rotation_deg % 360 == 0) return;
+  // Copied from the input, and more than a rotation: it may also mirror.
+  const auto* copied = reinterpret_cast<const std::int32_t*>(
+      av_stream_get_side_data(muxer_->streams[0], AV_PKT_DATA_DISPLAYMATRIX, nullptr));
+  const bool mirrors = copied && mirrors_picture(copied);
+  if (incoming_.rotation_deg % 360 == 0 && !mirrors) return;
   if (!is_named(*choice_.container, {"mp4", "mov", "ipod", "3gp", "3g2", "psp"})) {
-    say(std::string(choice_.container->name) + " keeps no rotation: show the video turned by " +
-        std::to_string(incoming_.rotation_deg) + " degrees anticlockwise");
+    const std::string name = choice_.container->name;
+    say(mirrors ? name + " keeps no mirroring: the input is shown mirrored, this video won't be"
+                : name + " keeps no rotation: show the video turned by " + std::to_string(incoming_.rotation_deg) +
+                      " degrees anticlockwise");
     return;
   }
-  // Copied from the input, which may also mirror.
-  if (av_stream_get_side_data(muxer_->streams[0], AV_PKT_DATA_DISPLAYMATRIX, nullptr)) return;
+  if (copied) return;
   constexpr std::size_t bytes = 9 * sizeof(std::int32_t);
   auto* matrix =
       reinterpret_cast<std::int32_t*>(av_stream_new_side_data(muxer_->streams[0], AV_PKT_DATA_DISPLAYMATRIX, bytes));

@@ -112,6 +112,16 @@ Input find_input(const std::string& path) {
   return {path, file_url(path), false, 0, 0, {}};
 }
 
+std::vector<std::string> input_files(const std::string& path) {
+  if (fs::exists(path)) return {path};
+  if (const auto pattern = ffmpeg::parse_number_pattern(path)) {
+    std::vector<std::string> names;
+    for (const std::int64_t number : existing_numbers(*pattern)) names.push_back(pattern->file_name(number));
+    return names;
+  }
+  return is_glob(path) ? expand_glob(path) : std::vector<std::string>{path};
+}
+
 Demuxer open_demuxer(const Input& input, const OpenOptions& options) {
   Demuxer out;
   AVFormatContext* context = avformat_alloc_context();

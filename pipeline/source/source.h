@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "pipeline/frame/frame.h"
 
@@ -14,6 +15,7 @@ struct Description {
   std::string name{};                ///< path or device, for messages
   PictureFormat format;              ///< of the frames as they will come
   Rational time_base{1, 1};          ///< of Frame::pts
+  std::int64_t first_pts = 0;        ///< of frame 0; many containers don't start at 0
   Rational frame_rate{0, 1};         ///< average, 0/1 if unknown
   bool variable_frame_rate = false;  ///< as far as the container tells
   std::int64_t frame_count = 0;      ///< an estimate, 0 if unknown
@@ -21,6 +23,8 @@ struct Description {
   bool live = false;
   /// One line on how the frames differ from what is stored (a pixel format that had to be converted); else empty.
   std::string notice{};
+
+  double first_time_s() const { return static_cast<double>(first_pts) * time_base.value(); }
 };
 
 /// Where filmed frames come from. Used from one thread at a time.
@@ -52,5 +56,9 @@ struct OpenOptions {
 /// writable; formats whose components are no samples of their own (palettes, floating point, ...) are converted.
 /// Throws Error (Input) if it can't be read or holds no picture.
 std::unique_ptr<Source> open(const std::string& path, const OpenOptions& options = {});
+
+/// The files that open() takes by that name: itself, or all of a sequence that there are. Throws Error (Input) if the
+/// sequence's folder can't be read.
+std::vector<std::string> input_files(const std::string& path);
 
 }  // namespace rinkaku::source

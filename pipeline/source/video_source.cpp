@@ -76,6 +76,7 @@ void VideoSource::describe(const AVFrame& first) {
 void VideoSource::read_container(const AVFrame& first) {
   AVFormatContext& context = *demuxer_.context;
   description_.time_base = ffmpeg::from_av(stream().time_base);
+  if (first.best_effort_timestamp != AV_NOPTS_VALUE) description_.first_pts = first.best_effort_timestamp;
   description_.frame_rate = frame_rate(context, stream());
   description_.variable_frame_rate = !input_.image_sequence && variable_frame_rate(context, stream());
   description_.frame_count =
@@ -198,7 +199,7 @@ void VideoSource::stamp(Frame& frame, const AVFrame& picture) {
   const bool first = frame.number == 0;
   frame.pts = picture.best_effort_timestamp;
   if (frame.pts == AV_NOPTS_VALUE) {
-    frame.pts = first ? 0 : last_pts_ + step_;
+    frame.pts = first ? description_.first_pts : last_pts_ + step_;
     // A still image has no time to miss.
     if (!first) ++damage_.times;
   } else if (!first && frame.pts <= last_pts_) {

@@ -146,7 +146,9 @@ std::string_view Table::exactly_one(std::initializer_list<std::string_view> keys
     if (!given.empty()) exclude(given, *key);
     given = *key;
   }
-  if (given.empty()) throw error(title(document_->schema(), path_) + " needs one of " + all);
+  if (given.empty()) {
+    throw error((path_.empty() ? "the file" : title(document_->schema(), path_)) + " needs one of " + all);
+  }
   return given;
 }
 

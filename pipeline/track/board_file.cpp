@@ -1,194 +1,137 @@
 // Reads board files, see read_board() in board.h.
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <limits>
+#include <optional>
 #include <set>
-#include <sstream>
 
 #include <glm/geometric.hpp>
-#include <toml++/toml.h>
 
 #include "pipeline/frame/error.h"
+#include "pipeline/toml/table.h"
 #include "pipeline/track/board.h"
 #include "pipeline/track/dictionary.h"
-#include "pipeline/track/text_file.h"
 
 namespace rinkaku::track {
 namespace {
 
-constexpr std::size_t most_bytes = 16u << 20;
+using toml::Table;
 
-std::string place(const std::string& file, const toml::source_region& at) {
-  return file + ":" + std::to_string(at.begin.line) + ":" + std::to_string(at.begin.column);
+const toml::Schema& board_schema() {
+  static const toml::Schema schema = {
+      {"", {"dictionary", "grid", "charuco", "chessboard", "marker"}},
+      {"grid", {"columns", "rows", "size_m", "gap_m", "first_id"}},
+      {"charuco", {"columns", "rows", "square_m", "marker_m", "first_id"}},
+      {"chessboard", {"columns", "rows", "square_m"}},
+      {"marker", {"id", "corners_m"}, true},
+  };
+  return schema;
 }
 
-// A table of the file: typed reads, and an error for every key that nobody asked for.
-class TableReader {
- public:
-  TableReader(const std::string& file, const toml::table& table, std::vector<std::string> known)
-      : file_(file), table_(table) {
-    for (const auto& [key, node] : table_) {
-      const std::string name(key.str());
-      if (std::find(known.begin(), known.end(), name) != known.end()) continue;
-      throw input_error(place(file_, key.source()), "unknown key \"" + name + "\"",
-                        "did you mean \"" + nearest_name(name, known) + "\"?");
-    }
-  }
+// The table's numbers; what they may be is for grid_board() and its like to say.
+int whole(const Table& table, std::string_view key) {
+  return static_cast<int>(table.required(key, table.integer(key, 0, 1'000'000)));
+}
+int whole_or_0(const Table& table, std::string_view key) { return table.has(key) ? whole(table, key) : 0; }
+double number(const Table& table, std::string_view key) { return table.required(key, table.number(key)); }
 
-  std::string here() const { return place(file_, table_.source()); }
-  std::string where(const std::string& key) const {
-    const toml::node* node = table_.get(key);
-    return node ? place(file_, node->source()) : here();
-  }
+std::optional<double> finite_number(const toml::Value& value) {
+  double number = std::nan("");
+  if (const auto* real = std::get_if<double>(&value.held)) number = *real;
+  if (const auto* integer = std::get_if<std::int64_t>(&value.held)) number = static_cast<double>(*integer);
+  if (!std::isfinite(number)) return {};
+  return number;
+}
 
-  const toml::node& need(const std::string& key) const {
-    if (const toml::node* node = table_.get(key)) return *node;
-    throw input_error(here(), "key \"" + key + "\" is missing");
-  }
+constexpr std::string_view four_corners =
+    "four corners [x, y] or [x, y, z] in metres, from the print's top left, clockwise";
 
-  double number(const std::string& key) const { return number_of(need(key), key); }
-
-  int integer(const std::string& key, std::optional<int> otherwise = {}) const {
-    if (otherwise && !table_.contains(key)) return *otherwise;
-    const toml::node& node = need(key);
-    const auto value = node.value_exact<std::int64_t>();
-    constexpr std::int64_t limit = 1'000'000;
-    if (!value || *value < -limit || *value > limit) {
-      throw input_error(where(key), "\"" + key + "\" must be a whole number");
-    }
-    return static_cast<int>(*value);
-  }
-
-  std::string text(const std::string& key) const {
-    if (const auto value = need(key).value_exact<std::string>()) return *value;
-    throw input_error(where(key), "\"" + key + "\" must be a text in quotes");
-  }
-
-  TableReader table(const std::string& key, std::vector<std::string> known) const {
-    if (const toml::table* table = need(key).as_table()) return {file_, *table, std::move(known)};
-    throw input_error(where(key), "\"" + key + "\" must be a table: { ... }");
-  }
-
-  double number_of(const toml::node& node, const std::string& key) const {
-    const auto value = node.value<double>();
-    if (!node.is_number() || !value || !std::isfinite(*value)) {
-      throw input_error(place(file_, node.source()), "\"" + key + "\" must be a number");
-    }
-    return *value;
-  }
-
-  bool has(const std::string& key) const { return table_.contains(key); }
-
- private:
-  const std::string& file_;
-  const toml::table& table_;
-};
-
-BoardMarker read_marker(const std::string& file, const toml::node& node, const std::string& dictionary) {
-  const toml::table* table = node.as_table();
-  if (!table) throw input_error(place(file, node.source()), "a marker must be a table: [[marker]]");
-  const TableReader reader(file, *table, {"id", "corners_m"});
-  BoardMarker marker;
-  marker.id = reader.integer("id");
-  check_marker(reader.where("id"), dictionary, marker.id);
-  const std::string where = reader.where("corners_m");
-  const toml::array* corners = reader.need("corners_m").as_array();
-  const std::string order = "four corners [x, y] or [x, y, z] in metres, from the print's top left, clockwise";
-  if (!corners || corners->size() != 4) throw input_error(where, "corners_m must hold four corners", order);
+std::array<glm::dvec3, 4> read_corners(const Table& marker) {
+  const toml::Value* value = marker.find("corners_m");
+  if (!value) throw marker.missing("corners_m");
+  const auto wrong = [&] { return marker.wrong("corners_m", four_corners); };
+  const auto* corners = std::get_if<toml::Array>(&value->held);
+  if (!corners || corners->size() != 4) throw wrong();
+  std::array<glm::dvec3, 4> read{};
   for (std::size_t i = 0; i < 4; ++i) {
-    const toml::array* corner = (*corners)[i].as_array();
-    if (!corner || corner->size() < 2 || corner->size() > 3) {
-      throw input_error(place(file, (*corners)[i].source()), "a corner must hold two or three numbers", order);
-    }
+    const auto* corner = std::get_if<toml::Array>(&(*corners)[i].held);
+    if (!corner || corner->size() < 2 || corner->size() > 3) throw wrong();
     for (std::size_t axis = 0; axis < corner->size(); ++axis) {
-      marker.corners_m[i][static_cast<int>(axis)] = reader.number_of((*corner)[axis], "corners_m");
+      const toml::Value& held = (*corner)[axis];
+      const auto metres = finite_number(held);
+      if (!metres) throw marker.error_at("corners_m", "must hold numbers, found " + toml::described(held));
+      read[i][static_cast<int>(axis)] = *metres;
     }
   }
-  // Turning the same way at each corner, and really turning: a convex quadrilateral.
-  const auto& c = marker.corners_m;
+  return read;
+}
+
+// Turning the same way at each corner, and really turning: a convex quadrilateral, and flat.
+void check_quadrilateral(const Table& marker, const std::array<glm::dvec3, 4>& c) {
   const double size = std::max(glm::distance(c[0], c[2]), glm::distance(c[1], c[3]));
   const glm::dvec3 normal = glm::cross(c[2] - c[0], c[3] - c[1]);
   for (std::size_t i = 0; i < 4; ++i) {
     const glm::dvec3 turn = glm::cross(c[(i + 1) % 4] - c[i], c[(i + 2) % 4] - c[(i + 1) % 4]);
     if (!(size > 1e-5) || !(size < 1e4) || !(glm::dot(turn, normal) > 1e-6 * std::pow(size, 4))) {
-      throw input_error(where, "the four corners are not those of a convex quadrilateral", order);
+      throw marker.error_at("corners_m", "must be the corners of a convex quadrilateral",
+                            "give " + std::string(four_corners));
     }
   }
   const double off_plane = std::abs(glm::dot(glm::normalize(normal), c[0] - c[1] + c[2] - c[3]));
-  if (off_plane > 0.02 * size) throw input_error(where, "the four corners do not lie in one plane", order);
-  return marker;
+  if (off_plane > 0.02 * size) throw marker.error_at("corners_m", "must lie in one plane");
 }
 
-Board read_markers(const std::string& file, const toml::table& root, const std::string& dictionary) {
-  const toml::node& node = *root.get("marker");
-  const toml::array* entries = node.as_array();
-  if (!entries || entries->empty()) {
-    throw input_error(place(file, node.source()), "\"marker\" must be a list of tables",
-                      "write [[marker]] before each");
-  }
+Board read_markers(const Table& root, const std::string& dictionary) {
+  const std::vector<Table> markers = root.tables("marker");
+  if (markers.empty()) throw root.error_at("marker", "must not be empty", "write [[marker]] before each");
   Board board;
   board.layout = Board::Layout::Markers;
   board.dictionary = dictionary;
+  const int most_id = dictionary_size(root.where("dictionary"), dictionary) - 1;
   std::set<int> seen;
-  for (const toml::node& entry : *entries) {
-    board.markers.push_back(read_marker(file, entry, dictionary));
-    const int id = board.markers.back().id;
-    if (!seen.insert(id).second) {
-      throw input_error(place(file, entry.source()), "marker " + std::to_string(id) + " is given twice");
-    }
+  for (const Table& marker : markers) {
+    BoardMarker& read = board.markers.emplace_back();
+    read.id = static_cast<int>(marker.required("id", marker.integer("id", 0, most_id)));
+    read.corners_m = read_corners(marker);
+    check_quadrilateral(marker, read.corners_m);
+    if (!seen.insert(read.id).second) throw marker.error("marker " + std::to_string(read.id) + " is given twice");
   }
   return board;
 }
 
-Board read_layout(const std::string& file, const toml::table& table) {
-  const TableReader root(file, table, {"dictionary", "grid", "charuco", "chessboard", "marker"});
-  std::vector<std::string> layouts;
-  for (const char* key : {"grid", "charuco", "chessboard", "marker"}) {
-    if (root.has(key)) layouts.emplace_back(key);
-  }
-  const std::string remedy = "give one of grid, charuco, chessboard and [[marker]]";
-  if (layouts.empty()) throw input_error(file, "the board has no layout", remedy);
-  if (layouts.size() > 1) {
-    throw input_error(root.where(layouts[1]), "\"" + layouts[0] + "\" and \"" + layouts[1] + "\" exclude each other",
-                      remedy);
-  }
-  const std::string& layout = layouts[0];
+Board read_layout(const Table& root) {
+  const std::string_view layout = root.exactly_one({"grid", "charuco", "chessboard", "marker"});
   if (layout == "chessboard") {
     if (root.has("dictionary")) {
-      throw input_error(root.where("dictionary"), "a chessboard has no dictionary", "leave it out, or use charuco");
+      throw root.error_at("dictionary", "has no meaning beside 'chessboard'", "leave it out, or use charuco");
     }
-    const TableReader t = root.table(layout, {"columns", "rows", "square_m"});
-    return chessboard(root.where(layout), {t.integer("columns"), t.integer("rows"), t.number("square_m")});
+    const Table t = *root.table(layout);
+    return chessboard(root.where(layout), {whole(t, "columns"), whole(t, "rows"), number(t, "square_m")});
   }
-  const std::string dictionary = root.text("dictionary");
+  const std::string dictionary = root.required("dictionary", root.text("dictionary"));
   dictionary_size(root.where("dictionary"), dictionary);
   if (layout == "grid") {
-    const TableReader t = root.table(layout, {"columns", "rows", "size_m", "gap_m", "first_id"});
+    const Table t = *root.table(layout);
     return grid_board(
         root.where(layout), dictionary,
-        {t.integer("columns"), t.integer("rows"), t.number("size_m"), t.number("gap_m"), t.integer("first_id", 0)});
+        {whole(t, "columns"), whole(t, "rows"), number(t, "size_m"), number(t, "gap_m"), whole_or_0(t, "first_id")});
   }
   if (layout == "charuco") {
-    const TableReader t = root.table(layout, {"columns", "rows", "square_m", "marker_m", "first_id"});
+    const Table t = *root.table(layout);
     return charuco_board(root.where(layout), dictionary,
-                         {t.integer("columns"), t.integer("rows"), t.number("square_m"), t.number("marker_m"),
-                          t.integer("first_id", 0)});
+                         {whole(t, "columns"), whole(t, "rows"), number(t, "square_m"), number(t, "marker_m"),
+                          whole_or_0(t, "first_id")});
   }
-  return read_markers(file, table, dictionary);
+  return read_markers(root, dictionary);
 }
 
 }  // namespace
 
 Board read_board(const std::filesystem::path& file) {
-  const std::string name = file.string();
-  const std::string text = read_text_file(file, most_bytes);
-  try {
-    Board board = read_layout(name, toml::parse(text, name));
-    board.name = name;
-    return board;
-  } catch (const toml::parse_error& error) {
-    throw input_error(place(name, error.source()), std::string(error.description()));
-  }
+  const toml::Document document(file, board_schema());
+  Board board = read_layout(document.root());
+  board.name = file.string();
+  return board;
 }
 
 }  // namespace rinkaku::track

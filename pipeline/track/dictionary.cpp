@@ -1,39 +1,29 @@
 #include "pipeline/track/dictionary.h"
 
 #include <algorithm>
-#include <cctype>
-#include <utility>
 
 #include <opencv2/aruco.hpp>
 
 #include "pipeline/frame/error.h"
+#include "pipeline/toml/schema.h"
 #include "pipeline/track/opencv_marker.h"
 
 namespace rinkaku::track {
 namespace {
 
-// Edit distance in half edits: letters that differ only in case cost one, everything else two.
-int edit_distance(std::string_view a, std::string_view b) {
-  const auto lower = [](char c) { return std::tolower(static_cast<unsigned char>(c)); };
-  std::vector<int> row(b.size() + 1);
-  for (std::size_t j = 0; j <= b.size(); ++j) row[j] = static_cast<int>(2 * j);
-  for (std::size_t i = 1; i <= a.size(); ++i) {
-    int diagonal = std::exchange(row[0], static_cast<int>(2 * i));
-    for (std::size_t j = 1; j <= b.size(); ++j) {
-      const int change = a[i - 1] == b[j - 1] ? 0 : lower(a[i - 1]) == lower(b[j - 1]) ? 1 : 2;
-      const int best = std::min({row[j] + 2, row[j - 1] + 2, diagonal + change});
-      diagonal = std::exchange(row[j], best);
-    }
-  }
-  return row[b.size()];
+std::string remedy(std::string_view dictionary) {
+  if (dictionary.starts_with("DICT_")) dictionary.remove_prefix(5);  // as OpenCV's own constants begin
+  const std::vector<std::string_view> names(dictionary_names().begin(), dictionary_names().end());
+  const std::string_view near = toml::nearest(dictionary, names);
+  if (near.empty()) return "use one such as 4X4_50, ARUCO_ORIGINAL or APRILTAG_36h11";
+  return "did you mean \"" + std::string(near) + "\"?";
 }
 
 int dictionary_number(std::string_view where, std::string_view dictionary) {
   const auto& names = dictionary_names();
   const auto found = std::find(names.begin(), names.end(), dictionary);
   if (found == names.end()) {
-    throw input_error(where, "there is no marker dictionary \"" + std::string(dictionary) + "\"",
-                      "did you mean \"" + nearest_name(dictionary, names) + "\"?");
+    throw input_error(where, "there is no marker dictionary \"" + std::string(dictionary) + "\"", remedy(dictionary));
   }
   return static_cast<int>(found - names.begin());
 }
@@ -62,12 +52,6 @@ void check_marker(std::string_view where, std::string_view dictionary, int id) {
     throw input_error(where, "dictionary " + std::string(dictionary) + " has no marker of id " + std::to_string(id),
                       "its ids run from 0 to " + std::to_string(size - 1));
   }
-}
-
-std::string nearest_name(std::string_view name, const std::vector<std::string>& known) {
-  return *std::min_element(known.begin(), known.end(), [&](const std::string& a, const std::string& b) {
-    return edit_distance(name, a) < edit_distance(name, b);
-  });
 }
 
 }  // namespace rinkaku::track

@@ -17,8 +17,4 @@ int dictionary_size(std::string_view where, std::string_view dictionary);
 /// Throws Error (Input), naming `where`, unless the dictionary exists and has this id.
 void check_marker(std::string_view where, std::string_view dictionary, int id);
 
-/// The known name that takes the fewest edits to reach, letters' case counting half; for "did you mean". `known` must
-/// not be empty.
-std::string nearest_name(std::string_view name, const std::vector<std::string>& known);
-
 }  // namespace rinkaku::track

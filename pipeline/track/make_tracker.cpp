@@ -27,7 +27,7 @@ struct Builder {
 
   std::unique_ptr<Tracker> operator()(const FromPoseFile& from) const {
     PoseTable poses = read_poses(from.poses);
-    if (!options.smoothing) return make_pose_file_tracker(std::move(poses));
+    if (!options.smoothing) return make_pose_file_tracker(std::move(poses), from.first_time_s);
     SteadyOptions steady;
     steady.smoothing = options.smoothing;
     steady.hold_s = 0;
@@ -40,7 +40,7 @@ struct Builder {
       nearest_m = std::min(nearest_m, glm::length(pose.world_from_camera.translation_m));
     }
     steady.radius_m = std::max(0.25 * nearest_m, 1e-3);
-    return make_steady(make_pose_file_tracker(std::move(poses)), steady);
+    return make_steady(make_pose_file_tracker(std::move(poses), from.first_time_s), steady);
   }
 
   std::unique_ptr<Tracker> of_board(const Board& board) const {

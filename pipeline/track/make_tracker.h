@@ -24,6 +24,7 @@ struct FromBoard {
 };
 struct FromPoseFile {
   std::filesystem::path poses;
+  double first_time_s = 0;  ///< of the video's first frame, which is time 0 of the file
 };
 
 struct TrackOptions {

@@ -201,10 +201,10 @@ class PoseReader {
 
 class PoseFileTracker final : public Tracker {
  public:
-  explicit PoseFileTracker(PoseTable poses) : poses_(std::move(poses)) {}
+  PoseFileTracker(PoseTable poses, double first_time_s) : poses_(std::move(poses)), first_time_s_(first_time_s) {}
 
   std::optional<TrackedPose> track(const Frame& frame) override {
-    const auto world_from_camera = poses_.world_from_camera(frame.number, frame.time_s());
+    const auto world_from_camera = poses_.world_from_camera(frame.number, frame.time_s() - first_time_s_);
     if (!world_from_camera) return {};
     TrackedPose pose;
     pose.frame_number = frame.number;
@@ -214,6 +214,7 @@ class PoseFileTracker final : public Tracker {
 
  private:
   PoseTable poses_;
+  double first_time_s_;
 };
 
 }  // namespace
@@ -251,8 +252,8 @@ PoseTable read_poses(const std::filesystem::path& file) {
   return PoseTable(PoseReader(file.string(), text).read());
 }
 
-std::unique_ptr<Tracker> make_pose_file_tracker(PoseTable poses) {
-  return std::make_unique<PoseFileTracker>(std::move(poses));
+std::unique_ptr<Tracker> make_pose_file_tracker(PoseTable poses, double first_time_s) {
+  return std::make_unique<PoseFileTracker>(std::move(poses), first_time_s);
 }
 
 }  // namespace rinkaku::track

@@ -28,8 +28,8 @@ class PoseTable {
   bool by_frame() const { return by_frame_; }
 
   /// The pose of a frame: by its number where the file has numbers, else by time, between two lines by straight
-  /// interpolation of the position and slerp of the rotation. Empty for numbers the file lacks and times outside its
-  /// span (half a microsecond of slack).
+  /// interpolation of the position and slerp of the rotation; `time_s` counts from the video's first frame. Empty for
+  /// numbers the file lacks and times outside its span (half a microsecond of slack).
   std::optional<RigidTransform> world_from_camera(std::int64_t frame, double time_s) const;
 
  private:
@@ -45,7 +45,8 @@ class PoseTable {
 /// a frame or time given twice. Any thread.
 PoseTable read_poses(const std::filesystem::path& file);
 
-/// Gives each frame its pose from the table; none where the table has none.
-std::unique_ptr<Tracker> make_pose_file_tracker(PoseTable poses);
+/// Gives each frame its pose from the table; none where the table has none. The table's time 0 is the video's first
+/// frame, whose own time is `first_time_s`.
+std::unique_ptr<Tracker> make_pose_file_tracker(PoseTable poses, double first_time_s = 0);
 
 }  // namespace rinkaku::track

@@ -147,6 +147,17 @@ TEST(RenderCommand, FullDiskIsOneLineAndStatus1AndLeavesNothing) {
   EXPECT_TRUE(test::contents(folder.path()) == before);
 }
 
+// The pictures' folder takes the name before the times are written.
+TEST(RenderCommand, TimingsThatCanNotBePutInPlaceAreAnError) {
+  const RenderFolder folder;
+  const test::CliResult got = test::run_rinkaku(folder, "render empty.toml -o t/%04d.png --timings t");
+  EXPECT_EQ(got.status, 1);
+  EXPECT_EQ(got.err.rfind("rinkaku: t: it can't be put in place", 0), 0u) << got.err;
+  for (const auto& entry : fs::directory_iterator(folder.path())) {
+    EXPECT_FALSE(entry.path().filename().string().starts_with(".t.")) << entry.path();
+  }
+}
+
 TEST(RenderCommand, FullStandardOutputIsNotPassedOver) {
   const RenderFolder folder;
   const test::CliResult got = test::run_shell(folder.path(), "\"$RINKAKU\" explain scene.toml --json >/dev/full");

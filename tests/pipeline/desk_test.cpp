@@ -56,8 +56,8 @@ TEST(Recordings, DeskObjectTrackedByTheBoardLiesWhereTheTrueCameraSeesIt) {
 
   const auto source = open_source(tracked);
   const PictureFormat& format = source->description().format;
-  const auto by_board = make_tracker(tracked);
-  const auto by_truth = make_tracker(truth);
+  const auto by_board = make_tracker(tracked, source->description());
+  const auto by_truth = make_tracker(truth, source->description());
   const std::vector<LoadedObject> objects = load_objects(scene);
   Drawing drawing = make_drawing(scene, objects, {0, 0, format.width_px, format.height_px});
   passes::Layer layer;

@@ -111,6 +111,12 @@ INSTANTIATE_TEST_SUITE_P(
                  "\"frames/%04d.png\", found the text \"a.png\""},
         BadScene{"ImagesFolderMissing", "[plate]\nimages = \"nowhere/%04d.png\"\n",
                  "DIR/scene.toml:2:10: 'images' in [plate] names a folder that doesn't exist: DIR/nowhere"},
+        BadScene{"FpsOfAVideo", "[plate]\nvideo = \"a.mp4\"\nfps = 24\n",
+                 "DIR/scene.toml:3:7: 'fps' in [plate] goes with 'images': a video has times of its own; leave it out"},
+        BadScene{"FpsZero", "[plate]\nimages = \"frames/%04d.png\"\nfps = 0\n",
+                 "DIR/scene.toml:3:7: 'fps' in [plate] must be a number from 0.001 to 1000, found 0"},
+        BadScene{"FpsText", "[plate]\nimages = \"frames/%04d.png\"\nfps = \"24p\"\n",
+                 "DIR/scene.toml:3:7: 'fps' in [plate] must be a number from 0.001 to 1000, found the text \"24p\""},
         BadScene{"PlateIsNumber", "plate = 3\n", "DIR/scene.toml:1:9: 'plate' must be one table, [plate], found 3"}),
     test_name);
 
@@ -157,6 +163,13 @@ INSTANTIATE_TEST_SUITE_P(
         BadScene{"HoldWhileLocked",
                  plate + "[track]\nlocked = { position_m = [0, 0, 2], look_at_m = [0, 1, 0] }\nhold_s = 1\n",
                  "DIR/scene.toml:6:10: 'hold_s' in [track] has no meaning beside 'locked'; leave it out"},
+        BadScene{"SmoothingWhileLocked",
+                 plate + "[track]\nlocked = { position_m = [0, 0, 2], look_at_m = [0, 1, 0] }\nsmoothing = true\n",
+                 "DIR/scene.toml:6:13: 'smoothing' in [track] has no meaning beside 'locked'; leave it out"},
+        BadScene{"HoldOfPoses", tracked + "hold_s = 1\n",
+                 "DIR/scene.toml:6:10: 'hold_s' in [track] has no meaning beside 'poses'; leave it out"},
+        BadScene{"FadeOfPoses", tracked + "fade_s = 1\n",
+                 "DIR/scene.toml:6:10: 'fade_s' in [track] has no meaning beside 'poses'; leave it out"},
         BadScene{"SmoothingNumber", tracked + "smoothing = 1\n",
                  "DIR/scene.toml:6:13: 'smoothing' in [track] must be true, false or a table { ... }, found 1"},
         BadScene{"BetaNegative", tracked + "smoothing = { beta = -1 }\n",
@@ -164,9 +177,9 @@ INSTANTIATE_TEST_SUITE_P(
         BadScene{"CutoffZero", tracked + "smoothing = { min_cutoff_hz = 0 }\n",
                  "DIR/scene.toml:6:31: 'min_cutoff_hz' in smoothing of [track] must be a number above 0 and at most "
                  "1000, found 0"},
-        BadScene{"HoldNegative", tracked + "hold_s = -1\n",
+        BadScene{"HoldNegative", plate + "[track]\nboard = \"board.toml\"\nhold_s = -1\n",
                  "DIR/scene.toml:6:10: 'hold_s' in [track] must be a number from 0 to 3600, found -1"},
-        BadScene{"FadeNan", tracked + "fade_s = nan\n",
+        BadScene{"FadeNan", plate + "[track]\nboard = \"board.toml\"\nfade_s = nan\n",
                  "DIR/scene.toml:6:10: 'fade_s' in [track] must be a number from 0 to 3600, found nan"}),
     test_name);
 

@@ -18,6 +18,19 @@ TEST(Scene, TakesAPlateAlone) {
   EXPECT_TRUE(scene.output.path.empty());
 }
 
+TEST(Scene, TakesPicturesPerSecond) {
+  const SceneFolder folder;
+  const std::string images = "[plate]\nimages = \"frames/%04d.png\"\n";
+  EXPECT_FALSE(folder.read(images).plate.fps);
+  const std::pair<const char*, Rational> rates[] = {
+      {"24", {24, 1}},          {"23.976", {24000, 1001}}, {"23.98", {24000, 1001}},    {"29.97", {30000, 1001}},
+      {"59.94", {60000, 1001}}, {"12.5", {25, 2}},         {"23.97602", {24000, 1001}}, {"0.5", {1, 2}},
+      {"0.001", {1, 1000}},     {"23.9", {239, 10}},       {"119.88", {120000, 1001}}};
+  for (const auto& [text, rate] : rates) {
+    EXPECT_EQ(folder.read(images + "fps = " + text + "\n").plate.fps, rate) << text;
+  }
+}
+
 TEST(Scene, FillsInDefaults) {
   const SceneFolder folder;
   const Scene scene = folder.read(object);

@@ -1,9 +1,9 @@
 #pragma once
 
-#include <unistd.h>
-
 #include <filesystem>
 #include <string>
+
+#include <unistd.h>
 
 #include <gtest/gtest.h>
 
@@ -43,6 +43,6 @@ class TemporaryFolder {
 }  // namespace rinkaku::test
 
 /// Skips the test, saying so, where the real test data are absent.
-#define RINKAKU_NEEDS_DATA()                                                                     \
-  if (!std::filesystem::exists(RINKAKU_TEST_DATA))                                               \
+#define RINKAKU_NEEDS_DATA()                       \
+  if (!std::filesystem::exists(RINKAKU_TEST_DATA)) \
   GTEST_SKIP() << "real test data are absent: " << RINKAKU_TEST_DATA << " (set RINKAKU_TEST_DATA)"

@@ -1,11 +1,12 @@
 uniform vec4 base_colour;  // straight alpha; where lit, in the brightest band
 #ifdef LIT
 uniform vec3 shade;        // what the darkest band multiplies the colour by
-uniform float bands;
+uniform float last_band;   // bands - 1
 #ifdef FINE
 in float brightness;       // 0 to bands
 #else
 uniform vec3 light;        // unit, towards the light, in the world
+uniform float bands;
 uniform bool flip_back_faces;
 in vec3 world_normal;
 #endif
@@ -54,8 +55,8 @@ void main() {
 #endif
   float brightness = (dot(n, light) * 0.5 + 0.5) * bands;
 #endif
-  float level = clamp(banded(brightness), 0.0, bands - 1.0);
-  colour.rgb *= mix(shade, vec3(1.0), level / max(bands - 1.0, 1.0));
+  float level = clamp(banded(brightness), 0.0, last_band);
+  colour.rgb *= mix(shade, vec3(1.0), level / last_band);
 #endif
 #ifndef TRANSLUCENT
   colour.a = 1.0;

@@ -36,9 +36,9 @@ void main() {
   vec4 clip = clip_from_object * vec4(position, 1.0);
 #ifdef FEATHER
   bool rim = outline_normal.w > 0.5;
-  // The rim starts from where the surface's own edge was drawn.
-  clip = pushed(clip, outline_normal.xyz, offset_px.x, 1.0);
-  if (rim) clip = pushed(clip, outline_normal.xyz, offset_px.y - offset_px.x, 0.0);
+  // As far to either side of the true edge, however the normal lies. The surface, which is pulled in by less where its
+  // normal is not at right angles to the line of sight, only reaches over the feather's strong part.
+  clip = pushed(clip, outline_normal.xyz, rim ? offset_px.y : offset_px.x, 0.0);
   coverage = rim ? 0.0 : edge_coverage;
 #else
   clip = pushed(clip, outline_normal.xyz, offset_px.x, 1.0);

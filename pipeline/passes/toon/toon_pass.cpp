@@ -93,6 +93,7 @@ std::size_t ToonPass::variant(unsigned features) {
   const GLuint name = v.program.name();
   glProgramUniform3fv(name, v.program.uniform("light"), 1, glm::value_ptr(options_.light));
   glProgramUniform3fv(name, v.program.uniform("shade"), 1, glm::value_ptr(options_.shade_colour));
+  glProgramUniform1f(name, v.program.uniform("last_band"), static_cast<float>(std::max(options_.bands - 1, 1)));
   glProgramUniform1f(name, v.program.uniform("bands"), static_cast<float>(options_.bands));
   glProgramUniform1i(name, v.program.uniform("base_texture"), 0);
   variants_.push_back(std::move(v));

@@ -140,6 +140,28 @@ TEST(FramePool, MakeWritableCopiesASharedFrameOnce) {
   EXPECT_EQ(own.planes[0].data, data);
 }
 
+// The flag travels with the copy, the right to write doesn't.
+TEST(FramePool, MakeWritableGivesACopyOfAWritableFrameItsOwnStorage) {
+  FramePool pool;
+  std::optional<Frame> first = pool.allocate(yuv420(35, 29));
+  fill(*first, 9);
+  Frame copy = *first;
+  ASSERT_TRUE(copy.writable);
+  pool.make_writable(copy);
+  EXPECT_NE(copy.planes[0].data, first->planes[0].data);
+  fill(copy, 50);
+  EXPECT_TRUE(holds(*first, 9));
+  // Moved on, or left behind by its copies: again the only one, so nothing is copied.
+  Frame last = *first;
+  first.reset();
+  const std::uint8_t* data = last.planes[0].data;
+  pool.make_writable(last);
+  EXPECT_EQ(last.planes[0].data, data);
+  Frame moved = std::move(last);
+  pool.make_writable(moved);
+  EXPECT_EQ(moved.planes[0].data, data);
+}
+
 // Decoders hand out pictures whose rows run upwards.
 TEST(FramePool, MakeWritableTurnsNegativeStridesRound) {
   FramePool pool;

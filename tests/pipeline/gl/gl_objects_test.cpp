@@ -187,6 +187,38 @@ TEST_F(Gl, TextureHoldsItsTexelsRowsFromTheTop) {
   EXPECT_NEAR(smallest[1], 90, 45);
 }
 
+TEST_F(Gl, TextureLargerThanTheDriverTakesIsHalvedAlongItsLongSide) {
+  GLint most = 0;
+  glGetIntegerv(GL_MAX_TEXTURE_SIZE, &most);
+  if (most > 1 << 16) GTEST_SKIP() << "this driver takes textures of any size that fits into memory";
+  const int length = most + 4;
+  for (const bool wide : {true, false}) {
+    // Along the long side texels are 0, 10, 20, 30, 0, ..., along the short one they differ by 100.
+    std::vector<std::uint8_t> texels;
+    for (int y = 0; y < (wide ? 2 : length); ++y) {
+      for (int x = 0; x < (wide ? length : 2); ++x) {
+        const int value = (wide ? x : y) % 4 * 10 + (wide ? y : x) * 100;
+        texels.insert(texels.end(), {static_cast<std::uint8_t>(value), 0, 0, 255});
+      }
+    }
+    const gl::Texture texture(wide ? length : 2, wide ? 2 : length, texels);
+    GLint width = 0, height = 0;
+    glGetTextureLevelParameteriv(texture.name(), 0, GL_TEXTURE_WIDTH, &width);
+    glGetTextureLevelParameteriv(texture.name(), 0, GL_TEXTURE_HEIGHT, &height);
+    ASSERT_EQ(wide ? width : height, length / 2);
+    ASSERT_EQ(wide ? height : width, 2);
+    std::vector<std::uint8_t> back(static_cast<std::size_t>(width) * height * 4);
+    glPixelStorei(GL_PACK_ALIGNMENT, 1);
+    glGetTextureImage(texture.name(), 0, GL_RGBA, GL_UNSIGNED_BYTE, static_cast<GLsizei>(back.size()), back.data());
+    for (int y = 0; y < height; ++y) {
+      for (int x = 0; x < width; ++x) {
+        const int mean = ((wide ? x : y) % 2 == 0 ? 5 : 25) + (wide ? y : x) * 100;
+        ASSERT_EQ(back[(static_cast<std::size_t>(y) * width + x) * 4], mean) << x << " " << y;
+      }
+    }
+  }
+}
+
 std::vector<std::uint8_t> contents(GLuint buffer, std::size_t size) {
   std::vector<std::uint8_t> bytes(size);
   glGetNamedBufferSubData(buffer, 0, static_cast<GLsizeiptr>(size), bytes.data());

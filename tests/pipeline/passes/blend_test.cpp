@@ -1,10 +1,18 @@
 #include "pipeline/passes/composite/blend.h"
 
+#include <cmath>
+#include <cstring>
 #include <random>
 #include <tuple>
+#include <vector>
 
 #include <gtest/gtest.h>
 
+extern "C" {
+#include <libavutil/pixfmt.h>
+}
+
+#include "pipeline/ffmpeg/formats.h"
 #include "tests/pipeline/passes/blend_reference.h"
 
 namespace rinkaku::test {

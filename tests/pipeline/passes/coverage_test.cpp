@@ -235,8 +235,11 @@ TEST_F(Coverage, ThinBarsKeepTheirWidth) {
                                glm::scale(glm::dmat4(1), glm::dvec3(width_px / 2 * px, 60 * px, width_px / 2 * px));
       sum += area_px(drawn(scene_of(toon(cube(), place)), v)) / 8;
     }
-    // Its ends are a few tenths of a pixel off, of 120; 0.02 pixels for 8 bits of coverage at a pixel or two across.
-    EXPECT_NEAR(sum / 120, width_px, 0.02 + 0.012 * width_px) << width_px;
+    // Its ends are a few tenths of a pixel off, of 120; 0.03 pixels for 8 bits of coverage at a pixel or two across and
+    // for what the surface reaches over the feather at hard edges. Under a pixel the feathers of its two sides lie over
+    // one another, and it can't be fainter than they are (docs/decisions/0002-feathered-contours.md).
+    const double tolerance_px = width_px >= 1 ? 0.03 + 0.012 * width_px : 0.65;
+    EXPECT_NEAR(sum / 120, width_px, tolerance_px) << width_px;
   }
 }
 

@@ -4,6 +4,11 @@
 
 #include <gtest/gtest.h>
 
+extern "C" {
+#include <libavutil/pixfmt.h>
+}
+
+#include "pipeline/ffmpeg/formats.h"
 #include "tests/pipeline/passes/blend_reference.h"
 
 namespace rinkaku::test {

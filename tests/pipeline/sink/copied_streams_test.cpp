@@ -1,4 +1,7 @@
 #include <algorithm>
+#include <array>
+#include <fstream>
+#include <iterator>
 #include <sstream>
 
 #include "tests/pipeline/sink/sink_tools.h"
@@ -148,6 +151,42 @@ TEST(Rotation, IsTheOneThatPlayersShow) {
   const std::string notice =
       test::write_all({.path = folder / "a.mkv", .codec = "ffv1"}, coming, test::noise_frames(format, 3));
   EXPECT_NE(notice.find("rotation"), std::string::npos);
+}
+
+// Sets the display matrix of an MP4's only track (ISO 14496-12, 8.3.2: version 0), in 16.16 and 2.30 fixed point.
+void set_display_matrix(const std::string& path, const std::array<std::int32_t, 9>& matrix) {
+  std::fstream file(path, std::ios::in | std::ios::out | std::ios::binary);
+  const std::string bytes{std::istreambuf_iterator<char>(file), {}};
+  const std::size_t header = bytes.find("tkhd");
+  ASSERT_NE(header, std::string::npos);
+  file.clear();
+  file.seekp(static_cast<std::streamoff>(header) + 44);
+  for (const std::int32_t entry : matrix) {
+    for (int shift = 24; shift >= 0; shift -= 8) {
+      file.put(static_cast<char>(static_cast<std::uint32_t>(entry) >> shift & 255));
+    }
+  }
+}
+
+TEST(Rotation, MirroringIsKept) {
+  const test::TemporaryFolder folder;
+  const PictureFormat format = test::picture("yuv420p", 64, 48);
+  constexpr std::int32_t one = 1 << 16, unit = 1 << 30;
+  const std::array<std::int32_t, 9> across{-one, 0, 0, 0, one, 0, 64 * one, 0, unit};
+  const std::array<std::int32_t, 9> upside_down{one, 0, 0, 0, -one, 0, 0, 48 * one, unit};
+  const std::array<std::int32_t, 9> turned{0, one, 0, one, 0, 0, 0, 0, unit};
+  for (const auto& matrix : {across, upside_down, turned}) {
+    const std::string from = folder / "a.mp4", to = folder / "b.mov";
+    test::write_all({.path = from, .codec = "mpeg4", .overwrite = true}, test::incoming(format),
+                    test::noise_frames(format, 3));
+    set_display_matrix(from, matrix);
+    const std::string told = test::ffprobe("-show_entries stream_side_data=displaymatrix", from);
+    ASSERT_NE(told.find("65536"), std::string::npos) << told;
+    EXPECT_EQ(test::transcode(from, {.path = to, .codec = "mpeg4", .overwrite = true}), "");
+    EXPECT_EQ(test::ffprobe("-show_entries stream_side_data=displaymatrix", to), told);
+    const std::string notice = test::transcode(from, {.path = folder / "c.mkv", .codec = "ffv1", .overwrite = true});
+    EXPECT_NE(notice.find("keeps no mirroring"), std::string::npos) << notice;
+  }
 }
 
 TEST(Interlacing, IsKept) {

@@ -1,3 +1,5 @@
+#include <set>
+
 #include "tests/pipeline/sink/sink_tools.h"
 
 namespace rinkaku {
@@ -48,6 +50,36 @@ TEST(ImageSink, UnfinishedLeavesNothing) {
     for (const Frame& frame : test::noise_frames(format, 3)) sink->write(frame);
   }
   EXPECT_TRUE(test::is_empty(folder.path()));
+}
+
+// A run that fails or is killed half way has changed nothing but hidden files.
+TEST(ImageSink, OldPicturesStayUntilTheNewAreWhole) {
+  const test::TemporaryFolder folder;
+  const PictureFormat format = test::picture("rgb24", 16, 16);
+  const auto frames = test::noise_frames(format, 6);
+  const sink::Options options{.path = folder / "a%d.png", .threads = 1, .overwrite = true};
+  test::write_all(options, test::incoming(format), {frames[2], frames[3]});
+  const std::string kept = test::decoded_by_ffmpeg(folder / "a2.png");
+  const auto seen = [&folder] {
+    std::set<std::string> names;
+    for (const auto& entry : std::filesystem::directory_iterator(folder.path())) {
+      const std::string name = entry.path().filename().string();
+      if (!name.starts_with(".")) names.insert(name);
+    }
+    return names;
+  };
+  {
+    std::vector<Frame> other = test::noise_frames(format, 6);
+    for (Frame& frame : other) frame.planes[0].data[0] ^= 1;
+    auto sink = sink::open(options, test::incoming(format));
+    for (const Frame& frame : other) sink->write(frame);
+    EXPECT_EQ(seen(), (std::set<std::string>{"a2.png", "a3.png"}));
+    EXPECT_TRUE(test::decoded_by_ffmpeg(folder / "a2.png") == kept);
+  }
+  EXPECT_TRUE(test::decoded_by_ffmpeg(folder / "a2.png") == kept);
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 2);
+  test::write_all(options, test::incoming(format), frames);
+  EXPECT_EQ(seen().size(), 6u);
 }
 
 TEST(ImageSink, NameWithoutNumberTakesOneFrame) {

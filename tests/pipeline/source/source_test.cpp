@@ -142,5 +142,14 @@ TEST(VideoSource, ChangeOfSizeInTheStreamIsConvertedAndSaid) {
   EXPECT_NE(source->damage().find("another size"), std::string::npos);
 }
 
+TEST(Source, TellsTheFirstFramesTime) {
+  const test::TemporaryFolder folder;
+  const std::string path = folder / "a.ts";
+  test::ffmpeg("-f lavfi -i testsrc2=s=64x48:r=25 -frames:v 3 -c:v mpeg2video '" + path + "'");
+  auto source = source::open(path);
+  EXPECT_GT(source->description().first_pts, 0);
+  EXPECT_EQ(source->description().first_pts, source->next()->pts);
+}
+
 }  // namespace
 }  // namespace rinkaku

@@ -6,6 +6,7 @@ extern "C" const char* __tsan_default_suppressions() {
          "called_from_lib:libavutil.so\n"
          "called_from_lib:libavformat.so\n"
          "called_from_lib:libswscale.so\n"
-         "called_from_lib:libx264.so\n";
+         "called_from_lib:libx264.so\n"
+         "race:av_buffer_unref\n";  // the last holder of a frame lets it go, maybe an encoder's thread
 }
 #endif

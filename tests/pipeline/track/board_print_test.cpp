@@ -2,8 +2,11 @@
 
 #include <cstdlib>
 #include <map>
+#include <vector>
 
+#include <glm/geometric.hpp>
 #include <gtest/gtest.h>
+#include <opencv2/aruco.hpp>
 #include <opencv2/calib3d.hpp>
 #include <opencv2/imgcodecs.hpp>
 

@@ -1,5 +1,8 @@
 #include "pipeline/track/board.h"
 
+#include <cmath>
+
+#include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
 #include "pipeline/track/dictionary.h"
@@ -96,26 +99,28 @@ TEST_F(BoardFile, MarkersMayStandAnywhere) {
 
 TEST_F(BoardFile, NamesLineAndColumnOfWhatIsWrong) {
   const std::string d = "dictionary = \"4X4_50\"\n";
-  EXPECT_REFUSED(read(d + "gird = { columns = 3 }\n"), "board.toml:2:1: unknown key \"gird\"; did you mean \"grid\"?");
+  EXPECT_REFUSED(read(d + "gird = { columns = 3 }\n"), "board.toml:2:1: unknown key 'gird'; did you mean 'grid'?");
   EXPECT_REFUSED(read(d + "grid = { columns = 3, row = 2, size_m = 0.04, gap_m = 0.01 }\n"),
-                 "unknown key \"row\"; did you mean \"rows\"?");
-  EXPECT_REFUSED(read(d + "grid = { columns = 3, rows = 2, size_m = 0.04 }\n"), "\"gap_m\" is missing");
+                 "unknown key 'row' in [grid]; did you mean 'rows'?");
+  EXPECT_REFUSED(read(d + "grid = { columns = 3, rows = 2, size_m = 0.04 }\n"),
+                 "board.toml:2:8: 'gap_m' in [grid] is missing");
   EXPECT_REFUSED(read(d + "grid = { columns = 3.5, rows = 2, size_m = 0.04, gap_m = 0.01 }\n"),
-                 "must be a whole number");
+                 "'columns' in [grid] must be a whole number from 0 to 1000000, found 3.5");
   EXPECT_REFUSED(read(d + "grid = { columns = 0, rows = 2, size_m = 0.04, gap_m = 0.01 }\n"),
                  "columns must lie between");
   EXPECT_REFUSED(read(d + "grid = { columns = 3, rows = 2, size_m = nan, gap_m = 0.01 }\n"),
-                 "\"size_m\" must be a number");
+                 "'size_m' in [grid] must be a number, found nan");
   EXPECT_REFUSED(read(d + "grid = { columns = 3, rows = 2, size_m = -1, gap_m = 0.01 }\n"), "size_m must lie between");
   EXPECT_REFUSED(read(d + "grid = { columns = 3, rows = 2, size_m = true, gap_m = 0.01 }\n"),
-                 "\"size_m\" must be a number");
+                 "'size_m' in [grid] must be a number, found true");
   EXPECT_REFUSED(read(d + "grid = { columns = 10, rows = 6, size_m = 1, gap_m = 1 }\n"), "no marker of id 59");
-  EXPECT_REFUSED(read(d + "grid = 3\n"), "must be a table");
-  EXPECT_REFUSED(read(d), "no layout");
-  EXPECT_REFUSED(read(d + "grid = {}\nchessboard = {}\n"), "exclude each other");
-  EXPECT_REFUSED(read("grid = { columns = 3, rows = 2, size_m = 0.04, gap_m = 0.01 }\n"), "\"dictionary\" is missing");
+  EXPECT_REFUSED(read(d + "grid = 3\n"), "board.toml:2:8: 'grid' must be one table, [grid], found 3");
+  EXPECT_REFUSED(read(d), "the file needs one of 'grid', 'charuco', 'chessboard' or 'marker'");
+  EXPECT_REFUSED(read(d + "grid = {}\nchessboard = {}\n"), "'chessboard' can't stand beside 'grid'; keep one of them");
+  EXPECT_REFUSED(read("grid = { columns = 3, rows = 2, size_m = 0.04, gap_m = 0.01 }\n"), "'dictionary' is missing");
   EXPECT_REFUSED(read("dictionary = \"5x5_50\"\ngrid = {}\n"), "board.toml:1:14: there is no marker dictionary");
-  EXPECT_REFUSED(read(d + "chessboard = { columns = 9, rows = 6, square_m = 1 }\n"), "no dictionary");
+  EXPECT_REFUSED(read(d + "chessboard = { columns = 9, rows = 6, square_m = 1 }\n"),
+                 "'dictionary' has no meaning beside 'chessboard'");
   EXPECT_REFUSED(read(d + "charuco = { columns = 5, rows = 4, square_m = 1, marker_m = 1 }\n"),
                  "smaller than square_m");
   EXPECT_REFUSED(read("dictionary = \n"), "board.toml:1:");
@@ -128,16 +133,16 @@ TEST_F(BoardFile, RefusesMarkersThatAreNoQuadrilateral) {
   };
   const std::string d = "dictionary = \"4X4_50\"\n", good = "[[0, 1], [1, 1], [1, 0], [0, 0]]";
   EXPECT_REFUSED(read(d + marker(good) + marker(good)), "marker 3 is given twice");
-  EXPECT_REFUSED(read(d + marker(good, "50")), "no marker of id 50");
+  EXPECT_REFUSED(read(d + marker(good, "50")), "'id' in [[marker]] must be a whole number from 0 to 49, found 50");
   EXPECT_REFUSED(read(d + marker("[[0, 1], [1, 1], [1, 0]]")), "four corners");
   EXPECT_REFUSED(read(d + marker("[[0, 1], [1, 0], [1, 1], [0, 0]]")), "convex quadrilateral");
   EXPECT_REFUSED(read(d + marker("[[0, 0], [1, 0], [2, 0], [3, 0]]")), "convex quadrilateral");
   EXPECT_REFUSED(read(d + marker("[[0, 0], [0, 0], [0, 0], [0, 0]]")), "convex quadrilateral");
   EXPECT_REFUSED(read(d + marker("[[0, 1], [1, 1, 0.3], [1, 0], [0, 0]]")), "one plane");
-  EXPECT_REFUSED(read(d + marker("[[0, 1], [1, 1], [1, 0], [0, inf]]")), "must be a number");
-  EXPECT_REFUSED(read(d + marker("[[0, 1], [1, 1], [1, 0], [0]]")), "two or three numbers");
-  EXPECT_REFUSED(read(d + "marker = []\n"), "list of tables");
-  EXPECT_REFUSED(read(d + "[marker]\nid = 3\n"), "list of tables");
+  EXPECT_REFUSED(read(d + marker("[[0, 1], [1, 1], [1, 0], [0, inf]]")), "must hold numbers, found infinity");
+  EXPECT_REFUSED(read(d + marker("[[0, 1], [1, 1], [1, 0], [0]]")), "must be four corners [x, y] or [x, y, z]");
+  EXPECT_REFUSED(read(d + "marker = []\n"), "'marker' must not be empty");
+  EXPECT_REFUSED(read(d + "[marker]\nid = 3\n"), "'marker' must be tables, each headed [[marker]]");
 }
 
 }  // namespace

@@ -1,5 +1,9 @@
 #include "pipeline/track/calibrate.h"
 
+#include <cmath>
+#include <vector>
+
+#include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
 #include "tests/pipeline/track/track_test_support.h"

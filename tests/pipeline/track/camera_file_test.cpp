@@ -1,5 +1,7 @@
 #include "pipeline/track/camera_file.h"
 
+#include <vector>
+
 #include <gtest/gtest.h>
 
 #include "tests/pipeline/track/track_test_support.h"

@@ -1,5 +1,8 @@
 #include "pipeline/track/flip.h"
 
+#include <cmath>
+#include <random>
+
 #include <gtest/gtest.h>
 
 #include "pipeline/track/pose_solver.h"

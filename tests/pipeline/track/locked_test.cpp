@@ -1,5 +1,6 @@
 #include "pipeline/track/locked.h"
 
+#include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
 #include "tests/pipeline/track/track_test_support.h"

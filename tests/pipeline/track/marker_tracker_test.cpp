@@ -1,6 +1,8 @@
 #include "pipeline/track/marker_tracker.h"
 
+#include <glm/geometric.hpp>
 #include <gtest/gtest.h>
+#include <opencv2/imgproc.hpp>
 
 #include "pipeline/track/make_tracker.h"
 #include "tests/pipeline/track/track_test_support.h"

@@ -1,7 +1,10 @@
 #include "pipeline/track/one_euro.h"
 
+#include <cmath>
 #include <limits>
+#include <random>
 
+#include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
 #include "tests/pipeline/track/track_test_support.h"

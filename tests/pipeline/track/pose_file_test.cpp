@@ -1,5 +1,8 @@
 #include "pipeline/track/pose_file.h"
 
+#include <fstream>
+
+#include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
 #include "tests/pipeline/track/track_test_support.h"
@@ -45,6 +48,17 @@ TEST_F(PoseFile, InterpolatesByTimeInsideItsSpan) {
   EXPECT_FALSE(poses.world_from_camera(0, 0.999));
   EXPECT_FALSE(poses.world_from_camera(0, 2.001));
   EXPECT_FALSE(poses.world_from_camera(0, std::nan("")));
+}
+
+TEST_F(PoseFile, CountsTimeFromTheVideosFirstFrame) {
+  auto tracker = make_pose_file_tracker(read("time_s,tx,ty,tz,qx,qy,qz,qw\n0,0,0,0,0,0,0,1\n1,10,0,0,0,0,0,1\n"), 1.5);
+  Frame frame;
+  frame.time_base = {1, 1000};
+  frame.pts = 1750;
+  ASSERT_TRUE(tracker->track(frame));
+  EXPECT_NEAR(tracker->track(frame)->camera_from_world.translation_m.x, -2.5, 1e-12);
+  frame.pts = 500;
+  EXPECT_FALSE(tracker->track(frame));
 }
 
 TEST_F(PoseFile, GivesTheCameraFromTheWorld) {

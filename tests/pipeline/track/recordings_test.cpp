@@ -1,6 +1,11 @@
 // Tracking of real and rendered recordings made by other people, against their poses.
+#include <algorithm>
+#include <cmath>
 #include <fstream>
+#include <memory>
+#include <vector>
 
+#include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 #include <opencv2/imgcodecs.hpp>
 

@@ -1,6 +1,10 @@
 #include "pipeline/track/steady.h"
 
+#include <algorithm>
+#include <cmath>
 #include <functional>
+#include <memory>
+#include <vector>
 
 #include <gtest/gtest.h>
 
