@@ -12,7 +12,7 @@ namespace {
 using mesh::Level;
 
 TEST(Levels, HalveDownToAFewHundredTriangles) {
-  const mesh::Mesh ball = mesh::assemble(sphere(5), 60);  // 8,192 triangles
+  const mesh::Mesh ball = mesh::assemble(sphere(5), 60).mesh;  // 8,192 triangles
   const std::vector<Level> all = mesh::levels(ball);
   ASSERT_EQ(all.size(), 4u);  // 4,096, 2,048, 1,024, 512
   std::size_t before = ball.triangles.size();
@@ -30,7 +30,7 @@ TEST(Levels, HalveDownToAFewHundredTriangles) {
 
 // Vertices stay on the unit ball, so a triangle is farthest from it at its middle.
 TEST(Levels, SurfaceLiesWithinTheStatedErrorOfTheBall) {
-  const mesh::Mesh ball = mesh::assemble(sphere(6), 60);
+  const mesh::Mesh ball = mesh::assemble(sphere(6), 60).mesh;
   const std::vector<Level> all = mesh::levels(ball);
   ASSERT_FALSE(all.empty());
   for (const Level& level : all) {
@@ -47,7 +47,7 @@ TEST(Levels, SurfaceLiesWithinTheStatedErrorOfTheBall) {
 }
 
 TEST(Levels, TexturedPartsAndColouredMeshesStayWhole) {
-  mesh::Mesh ball = mesh::assemble(sphere(5), 60);
+  mesh::Mesh ball = mesh::assemble(sphere(5), 60).mesh;
   ball.materials[0].texture = 0;
   EXPECT_TRUE(mesh::levels(ball).empty());
   ball.materials[0].texture = -1;
@@ -56,7 +56,7 @@ TEST(Levels, TexturedPartsAndColouredMeshesStayWhole) {
 }
 
 TEST(Levels, PartsMeetWithoutCracks) {
-  mesh::Mesh ball = mesh::assemble(sphere(5), 60);
+  mesh::Mesh ball = mesh::assemble(sphere(5), 60).mesh;
   // Two halves by the order of triangles, each its own part.
   const auto half = static_cast<std::uint32_t>(ball.triangles.size() / 2);
   mesh::Part second = ball.parts[0];
