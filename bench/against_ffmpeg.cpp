@@ -33,7 +33,7 @@ struct Settings {
   std::string rinkaku;
   std::string video;
   std::string mesh;
-  int frames = 1200;
+  int frames = 1800;
   int rounds = 5;
   long bit_rate = 6'000'000;
 };

@@ -3,6 +3,7 @@
 #include <chrono>
 #include <deque>
 #include <exception>
+#include <mutex>
 #include <optional>
 #include <thread>
 #include <utility>
@@ -26,8 +27,29 @@ namespace {
 struct Work {
   Frame frame;
   std::optional<TrackedPose> pose;
+  passes::Layer layer;
 };
 using Queue = BoundedQueue<Work>;
+
+// Layers go back from where they are laid over the plate to where they are drawn, with their memory.
+class SpentLayers {
+ public:
+  passes::Layer take() {
+    std::lock_guard lock(mutex_);
+    if (layers_.empty()) return {};
+    passes::Layer layer = std::move(layers_.back());
+    layers_.pop_back();
+    return layer;
+  }
+  void give_back(passes::Layer layer) {
+    std::lock_guard lock(mutex_);
+    layers_.push_back(std::move(layer));
+  }
+
+ private:
+  std::mutex mutex_;
+  std::vector<passes::Layer> layers_;
+};
 
 // Deep enough to even out single slow frames, shallow enough that memory stays small: at 1080p a frame is 3 MB.
 constexpr std::size_t queue_frames = 4;
@@ -51,7 +73,7 @@ class Step {
 // The stages that run, by thread.
 struct Line {
   std::deque<StageReport> reports;  // a deque: steps keep references
-  std::vector<Step> track, draw, encode;
+  std::vector<Step> track, draw, composite, encode;
   StageReport& report(const char* name) { return reports.emplace_back(StageReport{name, {}}); }
 };
 
@@ -94,7 +116,7 @@ void decode(source::Source& source, const RenderOptions& options, const std::ato
       if (!frame || frame->number >= options.end_frame) break;
       report.times.add(std::chrono::steady_clock::now() - start);
       if (frame->number < options.first_frame) continue;
-      if (!out.push({std::move(*frame), std::nullopt})) break;
+      if (!out.push({std::move(*frame), std::nullopt, {}})) break;
     }
     out.end();
   } catch (...) {
@@ -152,7 +174,7 @@ RenderReport render(const Prepared& prepared, const RenderOptions& options, cons
   if (plan.runs("lens")) lens.emplace(*prepared.camera);
   std::vector<LoadedObject> objects;
   std::optional<Drawing> drawing;
-  passes::Layer layer, distorted;  // of the frame being drawn; reused for the next
+  SpentLayers spent;
   if (plan.runs("draw")) {
     objects = load_objects(scene);
     for (const LoadedObject& object : objects) {
@@ -163,16 +185,18 @@ RenderReport render(const Prepared& prepared, const RenderOptions& options, cons
     drawing.emplace(make_drawing(
         scene, objects, lens ? lens->pinhole_rect() : passes::PixelRect{0, 0, result.width_px, result.height_px}));
     line.draw.emplace_back(line.report("draw"), [&](Work& work) {
-      layer.rect = {};
+      work.layer = spent.take();
+      work.layer.rect = {};
       if (!work.pose || work.pose->opacity <= 0) return;
       ++result.posed_frames;
-      drawing->renderer->draw({*prepared.camera, work.pose->camera_from_world}, layer);
+      drawing->renderer->draw({*prepared.camera, work.pose->camera_from_world}, work.layer);
     });
   }
+  passes::Layer distorted;
   if (lens) {
-    line.draw.emplace_back(line.report("lens"), [&](Work&) {
-      lens->distort(layer, distorted);
-      std::swap(layer, distorted);
+    line.composite.emplace_back(line.report("lens"), [&](Work& work) {
+      lens->distort(work.layer, distorted);
+      std::swap(work.layer, distorted);
     });
   }
   FramePool pool;
@@ -182,36 +206,42 @@ RenderReport render(const Prepared& prepared, const RenderOptions& options, cons
   Output layers;
   if (plan.runs("layers")) {
     layers = open_layers(prepared, options, described);
-    line.draw.emplace_back(line.report("layers"), [&](Work& work) {
-      layers.sink->write(straight_alpha_frame(work.frame, layer, opacity(work), pool));
+    line.composite.emplace_back(line.report("layers"), [&](Work& work) {
+      layers.sink->write(straight_alpha_frame(work.frame, work.layer, opacity(work), pool));
     });
   }
   if (plan.runs("composite")) {
     require_blendable(described);
-    line.draw.emplace_back(line.report("composite"), [&](Work& work) {
-      if (layer.rect.empty()) return;
+    line.composite.emplace_back(line.report("composite"), [&](Work& work) {
+      if (work.layer.rect.empty()) return;
       pool.make_writable(work.frame);
-      blender.blend(work.frame, layer, opacity(work));
+      blender.blend(work.frame, work.layer, opacity(work));
     });
   }
   if (plan.runs("unmultiply")) {
-    line.draw.emplace_back(line.report("unmultiply"), [&](Work& work) {
-      work.frame = straight_alpha_frame(work.frame, layer, opacity(work), pool);
+    line.composite.emplace_back(line.report("unmultiply"), [&](Work& work) {
+      work.frame = straight_alpha_frame(work.frame, work.layer, opacity(work), pool);
     });
   }
-  line.encode.emplace_back(line.report("encode"), [&](Work& work) { output.sink->write(work.frame); });
+  line.encode.emplace_back(line.report("encode"), [&](Work& work) {
+    output.sink->write(work.frame);
+    spent.give_back(std::move(work.layer));
+  });
 
-  // The frame's way: source -> decoded -> tracked -> (drawn here) -> finished -> sink.
+  // The frame's way: source -> decoded -> tracked -> (drawn here) -> drawn -> finished -> sink.
   const auto start = std::chrono::steady_clock::now();
-  Queue decoded(queue_frames), tracked(queue_frames), finished(queue_frames);
+  Queue decoded(queue_frames), tracked(queue_frames), drawn(queue_frames), finished(queue_frames);
+  Queue& to_draw = line.track.empty() ? decoded : tracked;
+  Queue& from_draw = line.composite.empty() ? finished : drawn;
   const std::int64_t total = frames_expected(described, options);
   std::exception_ptr failure;  // of any stage: exceptions travel down the queues and end here
   {
-    Threads threads({&decoded, &tracked, &finished});
+    Threads threads({&decoded, &tracked, &drawn, &finished});
     threads.start([&] { decode(*source, options, stop, decode_report, decoded); });
     if (!line.track.empty()) threads.start([&] { hand_on(decoded, line.track, tracked); });
+    if (!line.composite.empty()) threads.start([&] { hand_on(drawn, line.composite, finished); });
     threads.start([&] { failure = take_in(finished, line.encode, result.frames); });
-    hand_on(line.track.empty() ? decoded : tracked, line.draw, finished, [&, done = std::int64_t{0}]() mutable {
+    hand_on(to_draw, line.draw, from_draw, [&, done = std::int64_t{0}]() mutable {
       if (progress) progress(++done, total);
     });
     threads.join();
