@@ -76,7 +76,8 @@ struct Factors {
         largest(static_cast<float>((1 << depth_bits) - 1) + 0.5f) {}
 
   // colour + (1 - alpha) * plate for block i. Alpha 0 gives plate * 1 + 0, exactly.
-  int blended(const BlockRow& row, int i, float plate) const {
+  // Inlined into each loop, so that it is compiled for that loop's registers.
+  [[gnu::always_inline]] int blended(const BlockRow& row, int i, float plate) const {
     const float a = static_cast<float>(row.alpha[i]);
     const float colour = red * static_cast<float>(row.red[i]) + green * static_cast<float>(row.green[i]) +
                          blue * static_cast<float>(row.blue[i]) + alpha * a;
@@ -88,11 +89,7 @@ struct Factors {
 // The common case: a plane of bytes that holds this component alone.
 RINKAKU_WIDE void blend_bytes(std::uint8_t* samples, const BlockRow row, const Factors f) {
   for (int i = 0; i < row.blocks; ++i) {
-    const float a = static_cast<float>(row.alpha[i]);
-    const float colour = f.red * static_cast<float>(row.red[i]) + f.green * static_cast<float>(row.green[i]) +
-                         f.blue * static_cast<float>(row.blue[i]) + f.alpha * a;
-    const float value = colour + (1.0f + f.cover * a) * static_cast<float>(samples[i]) + 0.5f;
-    samples[i] = static_cast<std::uint8_t>(static_cast<int>(std::min(std::max(value, 0.0f), f.largest)));
+    samples[i] = static_cast<std::uint8_t>(f.blended(row, i, static_cast<float>(samples[i])));
   }
 }
 
