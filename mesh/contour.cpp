@@ -49,20 +49,18 @@ ContourFinder::ContourFinder(const Mesh& mesh, const Topology& topology, const C
   }
   first_non_manifold_ = two_faced + topology.boundary_edges;
 
-  for (auto* flags : {&front_, &seen_front_, &seen_back_}) flags->resize(count);
+  for (auto* flags : {&front_, &seen_front_}) flags->resize(count);
   // Lists are written without branches, one entry past the last kept one.
   front_indices_.resize(count * 3 + 3);
-  back_indices_.resize(count * 3 + 3);
   contour_.resize(topology.edges.size() + 1);
   front_parts_.resize(parts_.size());
 }
 
 const Contour& ContourFinder::find(const glm::dvec4& eye, const ContourLists& lists) {
   classify(eye);
-  result_.front_indices = result_.back_indices = result_.edges = {};
+  result_.front_indices = result_.edges = {};
   result_.front_parts = {};
   if (lists.front) list_front();
-  if (lists.back) list_back();
   if (lists.edges) list_edges();
   return result_;
 }
@@ -91,12 +89,10 @@ void ContourFinder::classify(const glm::dvec4& eye) {
   const std::uint8_t* two_sided = two_sided_.data();
   std::uint8_t* front = front_.data();
   std::uint8_t* seen_front = seen_front_.data();
-  std::uint8_t* seen_back = seen_back_.data();
   for (std::size_t f = 0; f < count; ++f) {
     const float distance = nx[f] * ex + ny[f] * ey + nz[f] * ez - offset[f] * ew;
     front[f] = distance > 0 ? 1 : 0;
     seen_front[f] = static_cast<std::uint8_t>((distance > -margin ? 1 : 0) | two_sided[f]);
-    seen_back[f] = distance < margin ? 1 : 0;
   }
   result_.front = front_;
 }
@@ -125,12 +121,6 @@ void ContourFinder::list_front() {
   }
   result_.front_indices = {front_indices_.data(), front};
   result_.front_parts = front_parts_;
-}
-
-void ContourFinder::list_back() {
-  std::uint32_t* back = back_indices_.data();
-  for (std::size_t f = 0; f < triangles_.size(); ++f) append(back, triangles_[f], seen_back_[f]);
-  result_.back_indices = {back_indices_.data(), back};
 }
 
 void ContourFinder::list_edges() {

@@ -14,7 +14,7 @@ namespace rinkaku::mesh {
 
 struct ContourOptions {
   /// Sine of the angle to the line of sight under which a face counts as seen from both sides, so that one which a
-  /// rasteriser takes for front-facing is never left out of the front triangles (nor of the back ones).
+  /// rasteriser takes for front-facing is never left out of the front triangles.
   double margin = 1e-3;
 };
 
@@ -27,7 +27,6 @@ struct IndexRange {
 /// Which lists find() makes; those not asked for are empty.
 struct ContourLists {
   bool front = true;
-  bool back = true;
   bool edges = true;
 };
 
@@ -37,7 +36,6 @@ struct Contour {
   std::span<const std::uint32_t>
       front_indices;                        ///< vertices, three a triangle: front faces, doubtful and two-sided ones
   std::span<const IndexRange> front_parts;  ///< per part of the mesh: its run within front_indices
-  std::span<const std::uint32_t> back_indices;  ///< as above: faces that turn their back, and doubtful ones
   std::span<const std::uint32_t> edges;         ///< the contour, as indices into Topology::edges
 };
 
@@ -66,7 +64,6 @@ class ContourFinder {
   };
   void classify(const glm::dvec4& eye);
   void list_front();
-  void list_back();
   void list_edges();
 
   ContourOptions options_;
@@ -83,8 +80,8 @@ class ContourFinder {
   std::vector<std::uint32_t> non_manifold_first_;
 
   // Scratch, sized once.
-  std::vector<std::uint8_t> front_, seen_front_, seen_back_;
-  std::vector<std::uint32_t> front_indices_, back_indices_, contour_;
+  std::vector<std::uint8_t> front_, seen_front_;
+  std::vector<std::uint32_t> front_indices_, contour_;
   std::vector<IndexRange> front_parts_;
   Contour result_;
 };

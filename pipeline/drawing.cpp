@@ -1,10 +1,15 @@
 #include "pipeline/drawing.h"
 
+#include <functional>
+#include <future>
+#include <utility>
+
 #include <glm/vec3.hpp>
 
 #include "outline/pass/hull_pass.h"
 #include "pipeline/gl/context.h"
 #include "pipeline/passes/layer_renderer.h"
+#include "pipeline/passes/toon/band_borders.h"
 #include "pipeline/passes/toon/toon_pass.h"
 #include "pipeline/placement.h"
 
@@ -15,13 +20,12 @@ glm::vec3 colour(const std::array<double, 3>& c) { return glm::vec3(c[0], c[1], 
 
 using PassList = std::vector<std::unique_ptr<passes::ObjectPass>>;
 
-void add_toon(PassList& list, passes::DrawnObject& drawn, const mesh::Mesh& mesh, const ObjectScene& object,
-              const LightScene& light) {
+passes::ToonOptions toon_options(const ObjectScene& object, const LightScene& light) {
   passes::ToonOptions options;
   options.bands = object.toon ? object.toon->bands : 0;
   if (object.toon) options.shade_colour = colour(object.toon->shade_colour);
   options.light = glm::vec3(light.direction);
-  list.push_back(std::make_unique<passes::ToonPass>(drawn, mesh, options));
+  return options;
 }
 
 void add_outline(PassList& list, passes::DrawnObject& drawn, const ObjectScene& object) {
@@ -32,24 +36,36 @@ void add_outline(PassList& list, passes::DrawnObject& drawn, const ObjectScene& 
   list.push_back(std::make_unique<outline::HullPass>(drawn, options));
 }
 
+// What of an object needs no GL.
+struct PreparedObject {
+  mesh::Imported imported;
+  passes::ToonOptions toon;
+  passes::ObjectShape shape;
+};
+
+PreparedObject prepare(const ObjectScene& object, const LightScene& light) {
+  mesh::Imported imported = load_mesh(object);
+  const mesh::Mesh& mesh = imported.mesh;
+  const glm::dmat4 place = world_from_object(object, mesh::bounding_box(mesh.positions), imported.summary.up);
+  const passes::ToonOptions toon = toon_options(object, light);
+  passes::ObjectShape shape(mesh, place, passes::band_borders(mesh, place, toon));
+  return {std::move(imported), toon, std::move(shape)};
+}
+
 }  // namespace
 
-std::vector<LoadedObject> load_objects(const Scene& scene) {
-  std::vector<LoadedObject> loaded;
-  for (const ObjectScene& object : scene.objects) {
-    mesh::ImportOptions options;
-    options.crease_deg = object.crease_deg;
-    LoadedObject one{&object, mesh::import(object.mesh, options)};
-    if (object.colour) {
-      for (mesh::Material& material : one.imported.mesh.materials) {
-        material.base_colour = glm::vec4(colour(*object.colour), material.base_colour.a);
-        material.texture = -1;
-      }
-      one.imported.mesh.colours.clear();
+mesh::Imported load_mesh(const ObjectScene& object) {
+  mesh::ImportOptions options;
+  options.crease_deg = object.crease_deg;
+  mesh::Imported imported = mesh::import(object.mesh, options);
+  if (object.colour) {
+    for (mesh::Material& material : imported.mesh.materials) {
+      material.base_colour = glm::vec4(colour(*object.colour), material.base_colour.a);
+      material.texture = -1;
     }
-    loaded.push_back(std::move(one));
+    imported.mesh.colours.clear();
   }
-  return loaded;
+  return imported;
 }
 
 Drawing::Drawing() = default;
@@ -59,19 +75,25 @@ Drawing::~Drawing() {
   renderer.reset();
 }
 
-Drawing make_drawing(const Scene& scene, const std::vector<LoadedObject>& objects, const passes::PixelRect& picture) {
+Drawing make_drawing(const Scene& scene, const passes::PixelRect& picture) {
+  std::vector<std::future<PreparedObject>> preparing;
+  for (const ObjectScene& object : scene.objects) {
+    preparing.push_back(std::async(std::launch::async, prepare, std::cref(object), std::cref(scene.light)));
+  }
   Drawing drawing;
   drawing.context = gl::Context::headless();
   std::vector<passes::StyledObject> styled;
-  for (const LoadedObject& loaded : objects) {
-    const mesh::Mesh& mesh = loaded.imported.mesh;
-    const glm::dmat4 place =
-        world_from_object(*loaded.scene, mesh::bounding_box(mesh.positions), loaded.imported.summary.up);
+  for (std::size_t i = 0; i < preparing.size(); ++i) {
+    const ObjectScene& object = scene.objects[i];
+    PreparedObject prepared = preparing[i].get();
+    for (const std::string& warning : prepared.imported.summary.warnings) {
+      drawing.notices.push_back(object.mesh.string() + ": " + warning);
+    }
     passes::StyledObject one;
-    one.object = std::make_unique<passes::DrawnObject>(mesh, place);
+    one.object = std::make_unique<passes::DrawnObject>(std::move(prepared.shape));
     // The list of passes, in drawing order. A new pass adds its line here.
-    add_toon(one.passes, *one.object, mesh, *loaded.scene, scene.light);
-    add_outline(one.passes, *one.object, *loaded.scene);
+    one.passes.push_back(std::make_unique<passes::ToonPass>(*one.object, prepared.imported.mesh, prepared.toon));
+    add_outline(one.passes, *one.object, object);
     styled.push_back(std::move(one));
   }
   drawing.renderer = std::make_unique<passes::LayerRenderer>(std::move(styled), picture);

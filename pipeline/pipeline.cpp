@@ -172,18 +172,12 @@ RenderReport render(const Prepared& prepared, const RenderOptions& options, cons
 
   std::optional<passes::LensMap> lens;
   if (plan.runs("lens")) lens.emplace(*prepared.camera);
-  std::vector<LoadedObject> objects;
   std::optional<Drawing> drawing;
   SpentLayers spent;
   if (plan.runs("draw")) {
-    objects = load_objects(scene);
-    for (const LoadedObject& object : objects) {
-      for (const std::string& warning : object.imported.summary.warnings) {
-        result.notices.push_back(object.scene->mesh.string() + ": " + warning);
-      }
-    }
-    drawing.emplace(make_drawing(
-        scene, objects, lens ? lens->pinhole_rect() : passes::PixelRect{0, 0, result.width_px, result.height_px}));
+    drawing.emplace(
+        make_drawing(scene, lens ? lens->pinhole_rect() : passes::PixelRect{0, 0, result.width_px, result.height_px}));
+    result.notices.insert(result.notices.end(), drawing->notices.begin(), drawing->notices.end());
     line.draw.emplace_back(line.report("draw"), [&](Work& work) {
       work.layer = spent.take();
       work.layer.rect = {};

@@ -124,32 +124,26 @@ INSTANTIATE_TEST_SUITE_P(Meshes, ContourOfClosedMesh,
                                          "closed/pmp_fandisk_13k.off", "closed/oded_human_man_14k.obj",
                                          "dirty/cgal_blobby_shuffled_winding.off", "dirty/cgal_boeing_soup.off"));
 
-TEST(ContourFinder, EveryTriangleIsListedOnTheSideItShows) {
+TEST(ContourFinder, TrianglesThatFaceTheEyeAreListed) {
   const Mesh mesh = assemble(sphere(4), 60).mesh;
   const Topology t = topology(mesh);
   ContourFinder finder(mesh, t, {.margin = 1e-3});
   const glm::dvec3 eye(3, 1, 2);
   const Contour& found = finder.find(eye);
   std::size_t front = 0;
-  std::size_t back = 0;
-  for (std::size_t f = 0; f < t.faces.size(); ++f) {
-    front += found.front[f];
-    back += 1u - found.front[f];
-  }
+  for (std::size_t f = 0; f < t.faces.size(); ++f) front += found.front[f];
   EXPECT_GE(found.front_indices.size(), front * 3);
-  EXPECT_GE(found.back_indices.size(), back * 3);
-  EXPECT_LT(found.front_indices.size() + found.back_indices.size(), mesh.triangles.size() * 3 * 1.02) << "few doubtful";
+  EXPECT_LT(found.front_indices.size(), front * 3 * 1.04) << "few doubtful";
   ASSERT_EQ(found.front_parts.size(), 1u);
   EXPECT_EQ(found.front_parts[0].count, found.front_indices.size());
 }
 
-TEST(ContourFinder, DoubtfulTrianglesAreOnBothLists) {
+TEST(ContourFinder, DoubtfulTrianglesAreListed) {
   const Mesh mesh = assemble(sphere(3), 60).mesh;
   const Topology t = topology(mesh);
   ContourFinder finder(mesh, t, {.margin = 1.0});
   const Contour& found = finder.find(glm::dvec3(0, 0, 5));
   EXPECT_EQ(found.front_indices.size(), mesh.triangles.size() * 3);
-  EXPECT_EQ(found.back_indices.size(), mesh.triangles.size() * 3);
   const std::size_t contour = found.edges.size();
   ContourFinder strict(mesh, t, {.margin = 0.0});
   EXPECT_EQ(strict.find(glm::dvec3(0, 0, 5)).edges.size(), contour) << "the margin does not move the contour";
@@ -161,7 +155,6 @@ TEST(ContourFinder, OpenSurfacesAndTwoSidedMaterialsAreDrawnFromBehindToo) {
   EXPECT_EQ(of_open.find(glm::dvec3(0.5, 0.5, 3)).front_indices.size(), 6u);
   const Contour& behind = of_open.find(glm::dvec3(0.5, 0.5, -3));
   EXPECT_EQ(behind.front_indices.size(), 6u);
-  EXPECT_EQ(behind.back_indices.size(), 6u);
   EXPECT_EQ(behind.edges.size(), 4u);
 
   Mesh closed = assemble(sphere(2), 60).mesh;

@@ -58,8 +58,7 @@ TEST(Recordings, DeskObjectTrackedByTheBoardLiesWhereTheTrueCameraSeesIt) {
   const PictureFormat& format = source->description().format;
   const auto by_board = make_tracker(tracked, source->description());
   const auto by_truth = make_tracker(truth, source->description());
-  const std::vector<LoadedObject> objects = load_objects(scene);
-  Drawing drawing = make_drawing(scene, objects, {0, 0, format.width_px, format.height_px});
+  Drawing drawing = make_drawing(scene, {0, 0, format.width_px, format.height_px});
   passes::Layer layer;
   double sum_px = 0, worst_px = 0;
   int frames = 0;

@@ -82,10 +82,10 @@ TEST(RealRecording, ObjectsBaseStaysOnTheMarker) {
   ASSERT_TRUE(prepared.plan.runs("smooth"));
 
   // In the world, whose origin is the marker's middle.
-  const std::vector<LoadedObject> objects = load_objects(prepared.scene);
-  const mesh::Mesh& mesh = objects.at(0).imported.mesh;
-  const glm::dmat4 placed =
-      world_from_object(*objects[0].scene, mesh::bounding_box(mesh.positions), objects[0].imported.summary.up);
+  const ObjectScene& object = prepared.scene.objects.at(0);
+  const mesh::Imported imported = load_mesh(object);
+  const mesh::Mesh& mesh = imported.mesh;
+  const glm::dmat4 placed = world_from_object(object, mesh::bounding_box(mesh.positions), imported.summary.up);
   double lowest_m = 1e9;
   for (const auto& position : mesh.positions) {
     lowest_m = std::min(lowest_m, (placed * glm::dvec4(glm::dvec3(position), 1)).z);

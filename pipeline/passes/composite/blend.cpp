@@ -12,12 +12,13 @@
 namespace rinkaku::passes {
 namespace {
 
-// The layer's sums over the pixels of each block of one row of blocks: R, G, B, A, in 0..255 a pixel.
+// The layer's sums over the pixels of each block of one row of blocks: R, G, B, A, in 0..255 a pixel. Blocks are of 16
+// pixels at most, so 16 bits hold them.
 struct BlockRow {
-  const std::int32_t* red;
-  const std::int32_t* green;
-  const std::int32_t* blue;
-  const std::int32_t* alpha;
+  const std::int16_t* red;
+  const std::int16_t* green;
+  const std::int16_t* blue;
+  const std::int16_t* alpha;
   int blocks;
 };
 
@@ -30,36 +31,44 @@ struct BlockRow {
 #endif
 
 // Adds one row of premultiplied pixels to sums, pixel by pixel.
-RINKAKU_WIDE void add_row(const std::uint8_t* rgba, int pixels, std::int32_t* red, std::int32_t* green,
-                          std::int32_t* blue, std::int32_t* alpha) {
+RINKAKU_WIDE void add_row(const std::uint8_t* rgba, int pixels, std::int16_t* red, std::int16_t* green,
+                          std::int16_t* blue, std::int16_t* alpha) {
   static_assert(std::endian::native == std::endian::little);
   for (int i = 0; i < pixels; ++i) {
     std::uint32_t pixel;  // whole words, so that the compiler can take several at a time
     std::memcpy(&pixel, rgba + 4 * i, 4);
-    red[i] += static_cast<std::int32_t>(pixel & 255);
-    green[i] += static_cast<std::int32_t>(pixel >> 8 & 255);
-    blue[i] += static_cast<std::int32_t>(pixel >> 16 & 255);
-    alpha[i] += static_cast<std::int32_t>(pixel >> 24);
+    red[i] = static_cast<std::int16_t>(red[i] + static_cast<int>(pixel & 255));
+    green[i] = static_cast<std::int16_t>(green[i] + static_cast<int>(pixel >> 8 & 255));
+    blue[i] = static_cast<std::int16_t>(blue[i] + static_cast<int>(pixel >> 16 & 255));
+    alpha[i] = static_cast<std::int16_t>(alpha[i] + static_cast<int>(pixel >> 24));
   }
 }
 
 // Adds up the pixels of each block, in place.
-void add_within_blocks(std::int32_t* sums, int blocks, int log2_block) {
+RINKAKU_WIDE void add_within_blocks(std::int16_t* sums, int blocks, int log2_block) {
   if (log2_block == 1) {
-    for (int b = 0; b < blocks; ++b) sums[b] = sums[2 * b] + sums[2 * b + 1];
+    for (int b = 0; b < blocks; ++b) sums[b] = static_cast<std::int16_t>(sums[2 * b] + sums[2 * b + 1]);
     return;
   }
   for (int b = 0; b < blocks; ++b) {
-    std::int32_t sum = 0;
+    int sum = 0;
     for (int k = 0; k < 1 << log2_block; ++k) sum += sums[(b << log2_block) + k];
-    sums[b] = sum;
+    sums[b] = static_cast<std::int16_t>(sum);
   }
 }
 
 // The columns of a row that hold anything: first, and one past the last.
 std::pair<int, int> covered(const std::uint8_t* rgba, int pixels) {
+  // Four pixels at a time while there is nothing at all.
+  const auto empty = [rgba](int i) {
+    std::uint64_t two[2];
+    std::memcpy(two, rgba + std::ptrdiff_t{4} * i, 16);
+    return (two[0] | two[1]) == 0;
+  };
   int first = 0, last = pixels;
+  while (first + 4 <= last && empty(first)) first += 4;
   while (first < last && rgba[4 * first + 3] == 0) ++first;
+  while (last - 4 >= first && empty(last - 4)) last -= 4;
   while (last > first && rgba[4 * last - 1] == 0) --last;
   return {first, last};
 }
@@ -159,10 +168,10 @@ void Blender::blend(Frame& frame, const Layer& layer, double opacity_wish) {
     // Room for a row of blocks, pixel by pixel.
     const std::size_t row_pixels = static_cast<std::size_t>(rect.width_px) + (std::size_t{2} << log2_w);
     sums_.resize(row_pixels * 4);
-    std::int32_t* const red = sums_.data();
-    std::int32_t* const green = red + row_pixels;
-    std::int32_t* const blue = green + row_pixels;
-    std::int32_t* const alpha = blue + row_pixels;
+    std::int16_t* const red = sums_.data();
+    std::int16_t* const green = red + row_pixels;
+    std::int16_t* const blue = green + row_pixels;
+    std::int16_t* const alpha = blue + row_pixels;
 
     for (int row = rect.y_px >> log2_h; row <= (rect.bottom_px() - 1) >> log2_h; ++row) {
       const int top = row << log2_h, bottom = std::min((row + 1) << log2_h, format.height_px);
@@ -180,13 +189,13 @@ void Blender::blend(Frame& frame, const Layer& layer, double opacity_wish) {
       const int first_block = (rect.x_px + first) >> log2_w;
       const int blocks = ((rect.x_px + last - 1) >> log2_w) - first_block + 1;
       const int in_block = rect.x_px + first - (first_block << log2_w);
-      for (std::int32_t* sums : {red, green, blue, alpha}) std::fill_n(sums, blocks << log2_w, 0);
+      for (std::int16_t* sums : {red, green, blue, alpha}) std::fill_n(sums, blocks << log2_w, 0);
       for (int y = first_y; y < end_y; ++y) {
         add_row(pixels_of(y) + std::ptrdiff_t{4} * first, last - first, red + in_block, green + in_block,
                 blue + in_block, alpha + in_block);
       }
       if (log2_w > 0) {
-        for (std::int32_t* sums : {red, green, blue, alpha}) add_within_blocks(sums, blocks, log2_w);
+        for (std::int16_t* sums : {red, green, blue, alpha}) add_within_blocks(sums, blocks, log2_w);
       }
       // The picture's last block may be cut off by its edge; it is then blended by itself.
       const int last_width =

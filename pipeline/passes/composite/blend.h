@@ -20,7 +20,7 @@ class Blender {
   void blend(Frame& frame, const Layer& layer, double opacity = 1);
 
  private:
-  std::vector<std::int32_t> sums_;
+  std::vector<std::int16_t> sums_;
 };
 
 }  // namespace rinkaku::passes

@@ -2,7 +2,9 @@ uniform vec4 base_colour;  // straight alpha; where lit, in the brightest band
 #ifdef LIT
 uniform vec3 shade;        // what the darkest band multiplies the colour by
 uniform float last_band;   // bands - 1
-#ifdef FINE
+#ifdef EVEN
+flat in float level;       // the same at all corners
+#elif defined(FINE)
 in float brightness;       // 0 to bands
 #else
 uniform vec3 light;        // unit, towards the light, in the world
@@ -27,7 +29,7 @@ in float coverage;
 
 layout(location = 0) out vec4 fragment;
 
-#ifdef LIT
+#if defined(LIT) && !defined(EVEN)
 // floor(x), with each step smoothed over one pixel.
 float banded(float x) {
   float nearest = floor(x + 0.5);
@@ -48,6 +50,7 @@ void main() {
   colour.a = 1.0;
 #endif
 #ifdef LIT
+#ifndef EVEN
 #ifndef FINE
   vec3 n = normalize(world_normal);
 #ifdef TWO_SIDED
@@ -56,6 +59,7 @@ void main() {
   float brightness = (dot(n, light) * 0.5 + 0.5) * bands;
 #endif
   float level = clamp(banded(brightness), 0.0, last_band);
+#endif
   colour.rgb *= mix(shade, vec3(1.0), level / last_band);
 #endif
 #ifndef TRANSLUCENT

@@ -15,7 +15,10 @@ invariant gl_Position;
 #ifdef LIT
 uniform vec3 light;  // unit, towards the light, in the world
 uniform float bands;
-#ifdef FINE
+#ifdef EVEN
+uniform float last_band;
+flat out float level;
+#elif defined(FINE)
 out float brightness;
 #else
 out vec3 world_normal;
@@ -45,9 +48,14 @@ void main() {
 #endif
   gl_Position = clip;
 #ifdef LIT
-#ifdef FINE
+#if defined(EVEN) || defined(FINE)
   // Half Lambert: bands share the whole sphere, also the side away from the light.
-  brightness = (dot(normalize(world_from_normal * normal), light) * 0.5 + 0.5) * bands;
+  float lit = (dot(normalize(world_from_normal * normal), light) * 0.5 + 0.5) * bands;
+#ifdef EVEN
+  level = clamp(floor(lit), 0.0, last_band);
+#else
+  brightness = lit;
+#endif
 #else
   world_normal = world_from_normal * normal;
 #endif

@@ -20,9 +20,10 @@ enum Feature : unsigned {
   Translucent = 32,
   Feather = 64,
   Fine = 128,  // lit by vertex: the mesh is fine enough
+  Even = 256,  // lit by triangle: no band's border runs through
 };
-constexpr std::string_view feature_names[] = {"LIT",       "TEXTURED",    "VERTEX_COLOURS", "MASKED",
-                                              "TWO_SIDED", "TRANSLUCENT", "FEATHER",        "FINE"};
+constexpr std::string_view feature_names[] = {"LIT",         "TEXTURED", "VERTEX_COLOURS", "MASKED", "TWO_SIDED",
+                                              "TRANSLUCENT", "FEATHER",  "FINE",           "EVEN"};
 
 // Half a pixel inwards; the feather reaches as far outwards.
 constexpr float inset_px = -0.5f, feather_px = 0.5f;
@@ -50,9 +51,9 @@ ToonPass::ToonPass(DrawnObject& object, const mesh::Mesh& mesh, const ToonOption
   unsigned common = 0;
   if (options.bands > 0) common |= Lit;
   if (!mesh.colours.empty()) common |= VertexColours;
-  if (object.two_sided()) common |= TwoSided;
+  if (object.shape().two_sided()) common |= TwoSided;
   // Two-sided surfaces learn only in the fragment shader which side is seen.
-  if ((common & Lit) != 0 && !object.two_sided() && is_fine(mesh)) common |= Fine;
+  if ((common & Lit) != 0 && !object.shape().two_sided() && is_fine(mesh)) common |= Fine;
   for (const mesh::Part& part : mesh.parts) {
     const mesh::Material& material = mesh.materials[part.material];
     unsigned features = common;
@@ -61,6 +62,9 @@ ToonPass::ToonPass(DrawnObject& object, const mesh::Mesh& mesh, const ToonOption
     if (material.alpha == mesh::Material::Alpha::Blend) features |= Translucent;
     PartStyle style;
     style.surface = variant(features);
+    // Even triangles come with levels of detail only. (Of two-sided ones it takes a pixel to know the side.)
+    const bool by_triangle = object.shape().has_levels() && (features & (Lit | TwoSided)) == Lit;
+    style.even = by_triangle ? variant((features & ~Fine) | Even) : style.surface;
     style.feather = variant(features | Feather);
     style.base_colour = material.base_colour;
     style.alpha_cutoff = material.alpha_cutoff;
@@ -100,17 +104,17 @@ std::size_t ToonPass::variant(unsigned features) {
   return variants_.size() - 1;
 }
 
-void ToonPass::draw(const DrawCall& call, std::span<const DrawnObject::Run> runs, bool feather, bool translucent) {
+void ToonPass::draw(const DrawCall& call, std::span<const Run> runs, bool feather, bool translucent) {
   const Variant* bound = nullptr;
-  for (const DrawnObject::Run& run : runs) {
+  for (const Run& run : runs) {
     const PartStyle& style = parts_[run.part];
     if (style.translucent != translucent) continue;
-    const Variant& v = variants_[feather ? style.feather : style.surface];
+    const Variant& v = variants_[feather ? style.feather : run.even ? style.even : style.surface];
     if (&v != bound) {
       glUseProgram(v.program.name());
       v.offset.set(call);
-      glUniformMatrix3fv(v.world_from_normal, 1, GL_FALSE, glm::value_ptr(object_.world_from_normal()));
-      const float overlap_px = feather ? object_.last_look().overlap_px : 0;
+      glUniformMatrix3fv(v.world_from_normal, 1, GL_FALSE, glm::value_ptr(object_.shape().world_from_normal()));
+      const float overlap_px = feather ? object_.shape().last_look().overlap_px : 0;
       glUniform2f(v.offset_px, inset_px - overlap_px, feather_px);
       glUniform1f(v.edge_coverage, 1 + overlap_px);
       glUniform1i(v.flip_back_faces, feather ? 0 : 1);

@@ -11,6 +11,7 @@
 #include <glm/mat4x4.hpp>
 
 #include "pipeline/passes/layer_renderer.h"
+#include "pipeline/passes/toon/band_borders.h"
 #include "pipeline/passes/toon/toon_pass.h"
 
 // Scenes drawn in the camera's own frame (x right, y down, z away), and what their layers hold.
@@ -25,7 +26,8 @@ inline passes::ToonOptions unlit() {
 inline passes::StyledObject toon(const mesh::Mesh& mesh, const glm::dmat4& camera_from_object,
                                  const passes::ToonOptions& options = unlit()) {
   passes::StyledObject styled;
-  styled.object = std::make_unique<passes::DrawnObject>(mesh, camera_from_object);
+  styled.object = std::make_unique<passes::DrawnObject>(
+      passes::ObjectShape(mesh, camera_from_object, passes::band_borders(mesh, camera_from_object, options)));
   styled.passes.push_back(std::make_unique<passes::ToonPass>(*styled.object, mesh, options));
   return styled;
 }

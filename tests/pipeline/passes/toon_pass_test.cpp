@@ -229,7 +229,7 @@ TEST_F(Toon, OpaqueMaterialIgnoresAlpha) {
 }
 
 int programs_for(const mesh::Mesh& mesh, const ToonOptions& options) {
-  passes::DrawnObject object(mesh, glm::dmat4(1));
+  passes::DrawnObject object(passes::ObjectShape(mesh, glm::dmat4(1)));
   const gl::Made before = gl::made();
   const passes::ToonPass pass(object, mesh, options);
   return gl::made().programs - before.programs;
@@ -238,6 +238,7 @@ int programs_for(const mesh::Mesh& mesh, const ToonOptions& options) {
 TEST_F(Toon, OnlyTheVariantsThatMaterialsNeedAreCompiled) {
   EXPECT_EQ(programs_for(cube(), unlit()), 2);  // surface and feather
   EXPECT_EQ(programs_for(cube(), lit(3, 0)), 2);
+  EXPECT_EQ(programs_for(sphere(4), lit(3, 0)), 3);  // also for even triangles of levels of detail
   mesh::Mesh same = cube({1, 0, 0, 1});
   append(same, cube({0, 1, 0, 1}), {3, 0, 0});
   EXPECT_EQ(programs_for(same, unlit()), 2);  // colours are no variants
@@ -250,7 +251,7 @@ TEST_F(Toon, OnlyTheVariantsThatMaterialsNeedAreCompiled) {
 
 TEST_F(Toon, TexturesAreMadeOnlyWhereThereAreSome) {
   mesh::Mesh mesh = square();
-  passes::DrawnObject object(mesh, glm::dmat4(1));
+  passes::DrawnObject object(passes::ObjectShape(mesh, glm::dmat4(1)));
   gl::Made before = gl::made();
   const passes::ToonPass plain(object, mesh, unlit());
   EXPECT_EQ(gl::made().textures, before.textures);

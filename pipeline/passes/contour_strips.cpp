@@ -1,0 +1,97 @@
+#include "pipeline/passes/contour_strips.h"
+
+#include <algorithm>
+
+#include <glm/geometric.hpp>
+
+namespace rinkaku::passes {
+namespace {
+
+// The corner of a triangle that lies on a welded point.
+std::uint32_t corner_at(const mesh::Mesh& mesh, std::uint32_t face, std::uint32_t point) {
+  const glm::uvec3& t = mesh.triangles[face];
+  for (int k = 0; k < 3; ++k) {
+    if (mesh.welded[t[k]] == point) return t[k];
+  }
+  return t.x;
+}
+
+// Whether a surface bends towards its outer side at an edge. Of a closed surface, the contour there is never seen: what
+// faces away lies before what faces the eye.
+bool is_hollow(const mesh::Topology& topology, const mesh::Edge& edge) {
+  if ((edge.flags & (mesh::Edge::kNonManifold | mesh::Edge::kInconsistent)) != 0) return false;
+  if (topology.component_two_sided[topology.component[edge.face0]] != 0) return false;
+  const glm::uvec3& other = topology.faces[edge.face1];
+  const std::uint32_t opposite = other.x + other.y + other.z - edge.a - edge.b;
+  const glm::vec3 away = topology.points[opposite] - topology.points[edge.a];
+  constexpr float least = 1e-4f;  // of the length: flat within rounding counts as convex
+  return glm::dot(topology.face_normals[edge.face0], away) > least * glm::length(away);
+}
+
+}  // namespace
+
+ContourStrips::ContourStrips(const mesh::Mesh& mesh, const mesh::Topology& topology, bool two_sided)
+    : parts_(mesh.parts.size()) {
+  std::vector<std::uint32_t> part_of(mesh.triangles.size());
+  for (std::uint32_t p = 0; p < mesh.parts.size(); ++p) {
+    std::fill_n(part_of.begin() + mesh.parts[p].first_triangle, mesh.parts[p].triangle_count, p);
+  }
+  edges_.reserve(topology.edges.size());
+  for (const mesh::Edge& edge : topology.edges) {
+    EdgeVertices e{edge.vertex_a,       edge.vertex_b, edge.vertex_a, edge.vertex_b, part_of[edge.face0],
+                   part_of[edge.face0], edge.face0,    edge.face0,    false};
+    if (edge.face1 != mesh::kNone) {
+      e.a1 = corner_at(mesh, edge.face1, edge.a);
+      e.b1 = corner_at(mesh, edge.face1, edge.b);
+      e.part1 = part_of[edge.face1];
+      e.face1 = edge.face1;
+      e.always_hidden = !two_sided && is_hollow(topology, edge);
+    }
+    edges_.push_back(e);
+  }
+}
+
+void ContourStrips::collect(const mesh::Contour& contour, std::span<const ShapeVertex> vertices) {
+  collect_pieces(contour);
+  strip_vertices_.clear();
+  indices_.clear();
+  runs_.clear();
+  for (const Piece& piece : pieces_) emit(vertices, piece);
+}
+
+void ContourStrips::collect_pieces(const mesh::Contour& contour) {
+  pieces_.clear();
+  for (std::uint32_t edge : contour.edges) {
+    const EdgeVertices& e = edges_[edge];
+    if (e.always_hidden) continue;
+    const bool first = contour.front[e.face0] != 0 || contour.front[e.face1] == 0;
+    const bool from_behind = contour.front[first ? e.face0 : e.face1] == 0;
+    pieces_.push_back(first ? Piece{e.part0, e.a0, e.b0, from_behind} : Piece{e.part1, e.b1, e.a1, from_behind});
+  }
+  if (parts_ > 1) {
+    std::stable_sort(pieces_.begin(), pieces_.end(), [](const Piece& a, const Piece& b) { return a.part < b.part; });
+  }
+}
+
+void ContourStrips::emit(std::span<const ShapeVertex> vertices, const Piece& piece) {
+  if (runs_.empty() || runs_.back().part != piece.part) {
+    runs_.push_back({piece.part, static_cast<std::uint32_t>(indices_.size()), 0, false});
+  }
+  ShapeVertex a = vertices[piece.from], b = vertices[piece.to];
+  if (piece.from_behind) {
+    for (int k = 0; k < 3; ++k) {
+      a.normal[k] = static_cast<std::int16_t>(-a.normal[k]);
+      b.normal[k] = static_cast<std::int16_t>(-b.normal[k]);
+    }
+  }
+  const auto base = static_cast<std::uint32_t>(strip_vertices_.size());
+  strip_vertices_.push_back(a);
+  strip_vertices_.push_back(b);
+  a.outline_normal[3] = b.outline_normal[3] = 32767;
+  strip_vertices_.push_back(a);
+  strip_vertices_.push_back(b);
+  for (std::uint32_t corner : {0u, 1u, 2u, 2u, 1u, 3u}) indices_.push_back(base + corner);
+  runs_.back().index_count += 6;
+}
+
+}  // namespace rinkaku::passes

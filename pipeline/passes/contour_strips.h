@@ -1,0 +1,54 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "mesh/contour.h"
+#include "mesh/mesh.h"
+#include "mesh/topology.h"
+#include "pipeline/passes/shape_vertex.h"
+
+namespace rinkaku::passes {
+
+/// Turns a contour into strips of quads for feathers and lines: two vertices on the edge (the fourth component of their
+/// outline normal 0) and the same two again (1) for the vertex shader to push out.
+/// No GL.
+class ContourStrips {
+ public:
+  /// `two_sided`: also what faces away is seen. Keeps neither mesh nor topology.
+  ContourStrips(const mesh::Mesh& mesh, const mesh::Topology& topology, bool two_sided);
+
+  /// `vertices` are the mesh's. Allocates nothing once warm.
+  void collect(const mesh::Contour& contour, std::span<const ShapeVertex> vertices);
+
+  std::span<const ShapeVertex> vertices() const { return strip_vertices_; }
+  std::span<const std::uint32_t> indices() const { return indices_; }
+  std::span<const Run> runs() const { return runs_; }
+
+ private:
+  struct EdgeVertices {
+    std::uint32_t a0, b0, a1, b1;  // as face0 and face1 have them
+    std::uint32_t part0, part1;
+    std::uint32_t face0, face1;
+    bool always_hidden;
+  };
+  // An edge of this frame's contour, in the direction in which the face that is seen runs along it.
+  struct Piece {
+    std::uint32_t part, from, to;
+    bool from_behind;  // as the border of an open surface may be seen
+  };
+  void collect_pieces(const mesh::Contour& contour);
+  void emit(std::span<const ShapeVertex> vertices, const Piece& piece);
+
+  std::vector<EdgeVertices> edges_;
+  std::size_t parts_;
+  // This frame's, kept for their memory.
+  std::vector<Piece> pieces_;
+  std::vector<ShapeVertex> strip_vertices_;
+  std::vector<std::uint32_t> indices_;
+  std::vector<Run> runs_;
+};
+
+}  // namespace rinkaku::passes

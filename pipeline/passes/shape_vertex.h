@@ -1,0 +1,28 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+namespace rinkaku::passes {
+
+/// A vertex as the passes' shaders read it, at the attribute locations 0 to 4.
+struct ShapeVertex {
+  glm::vec3 position{0};                         ///< in the object's coordinates
+  std::array<std::int16_t, 4> normal{};          ///< snorm; for shading
+  std::array<std::int16_t, 4> outline_normal{};  ///< snorm; the fourth is 1 at the rim of a contour strip, else 0
+  glm::vec2 uv{0};
+  std::array<std::uint8_t, 4> colour{};  ///< unorm, sRGB-encoded
+};
+
+/// Triangles of one part of the mesh within an index list.
+struct Run {
+  std::uint32_t part = 0;
+  std::uint32_t first_index = 0;
+  std::uint32_t index_count = 0;
+  bool even = false;  ///< no triangle's colour changes over it
+};
+
+}  // namespace rinkaku::passes
