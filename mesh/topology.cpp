@@ -1,6 +1,7 @@
 #include "mesh/topology.h"
 
 #include <algorithm>
+#include <cassert>
 #include <numeric>
 #include <utility>
 
@@ -242,6 +243,15 @@ Topology topology(const Mesh& mesh) {
   out.face_normals.assign(of_face.normal.begin(), of_face.normal.end());
   point_outline_normals(of_face, out);
   return out;
+}
+
+std::uint32_t corner_at(const Mesh& mesh, std::uint32_t triangle, std::uint32_t point) {
+  const glm::uvec3& t = mesh.triangles[triangle];
+  for (int k = 0; k < 2; ++k) {
+    if (mesh.welded[t[k]] == point) return t[k];
+  }
+  assert(mesh.welded[t.z] == point);
+  return t.z;
 }
 
 }  // namespace rinkaku::mesh

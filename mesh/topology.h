@@ -72,4 +72,7 @@ struct Topology {
 /// Cost: about 0.2 microseconds a triangle.
 Topology topology(const Mesh& mesh);
 
+/// The vertex that a triangle of the mesh has at a welded point. Precondition: it has one there.
+std::uint32_t corner_at(const Mesh& mesh, std::uint32_t triangle, std::uint32_t point);
+
 }  // namespace rinkaku::mesh

@@ -7,15 +7,6 @@
 namespace rinkaku::passes {
 namespace {
 
-// The corner of a triangle that lies on a welded point.
-std::uint32_t corner_at(const mesh::Mesh& mesh, std::uint32_t face, std::uint32_t point) {
-  const glm::uvec3& t = mesh.triangles[face];
-  for (int k = 0; k < 3; ++k) {
-    if (mesh.welded[t[k]] == point) return t[k];
-  }
-  return t.x;
-}
-
 // Whether a surface bends towards its outer side at an edge. Of a closed surface, the contour there is never seen: what
 // faces away lies before what faces the eye.
 bool is_hollow(const mesh::Topology& topology, const mesh::Edge& edge) {
@@ -41,8 +32,8 @@ ContourStrips::ContourStrips(const mesh::Mesh& mesh, const mesh::Topology& topol
     EdgeVertices e{edge.vertex_a,       edge.vertex_b, edge.vertex_a, edge.vertex_b, part_of[edge.face0],
                    part_of[edge.face0], edge.face0,    edge.face0,    false};
     if (edge.face1 != mesh::kNone) {
-      e.a1 = corner_at(mesh, edge.face1, edge.a);
-      e.b1 = corner_at(mesh, edge.face1, edge.b);
+      e.a1 = mesh::corner_at(mesh, edge.face1, edge.a);
+      e.b1 = mesh::corner_at(mesh, edge.face1, edge.b);
       e.part1 = part_of[edge.face1];
       e.face1 = edge.face1;
       e.always_hidden = !two_sided && is_hollow(topology, edge);

@@ -9,6 +9,13 @@ DrawnObject::DrawnObject(ObjectShape shape)
     : shape_(std::move(shape)), mesh_array_(make_vertex_array()), contour_array_(make_vertex_array()) {
   vertex_buffer_ = gl::StaticBuffer(std::as_bytes(shape_.vertices()));
   glVertexArrayVertexBuffer(mesh_array_.name(), 0, vertex_buffer_.name(), 0, sizeof(ShapeVertex));
+  if (shape_.border_vertices().empty()) return;
+  border_array_ = make_vertex_array();
+  glEnableVertexArrayAttrib(border_array_.name(), 5);
+  glVertexArrayAttribFormat(border_array_.name(), 5, 3, GL_SHORT, GL_TRUE, offsetof(BorderVertex, across));
+  glVertexArrayAttribBinding(border_array_.name(), 5, 0);
+  border_buffer_ = gl::StaticBuffer(std::as_bytes(shape_.border_vertices()));
+  glVertexArrayVertexBuffer(border_array_.name(), 0, border_buffer_.name(), 0, sizeof(BorderVertex));
 }
 
 gl::VertexArrayHandle DrawnObject::make_vertex_array() {
@@ -35,6 +42,9 @@ void DrawnObject::upload() {
   glVertexArrayElementBuffer(mesh_array_.name(), front_buffer_.name());
   glVertexArrayElementBuffer(contour_array_.name(), strip_index_buffer_.name());
   glVertexArrayVertexBuffer(contour_array_.name(), 0, strip_buffer_.name(), 0, sizeof(ShapeVertex));
+  if (look.border_indices.empty()) return;
+  border_index_buffer_.write(std::as_bytes(look.border_indices));
+  glVertexArrayElementBuffer(border_array_.name(), border_index_buffer_.name());
 }
 
 std::span<const Run> DrawnObject::bind_front() {
@@ -46,6 +56,12 @@ std::span<const Run> DrawnObject::bind_front() {
 std::span<const Run> DrawnObject::bind_contour() {
   glBindVertexArray(contour_array_.name());
   return shape_.last_look().strip_runs;
+}
+
+std::span<const Run> DrawnObject::bind_borders() {
+  if (shape_.last_look().border_runs.empty()) return {};
+  glBindVertexArray(border_array_.name());
+  return shape_.last_look().border_runs;
 }
 
 }  // namespace rinkaku::passes

@@ -23,6 +23,8 @@ class DrawnObject {
   std::span<const Run> bind_front();
   /// Binds the contour's quads (see ContourStrips); draw them likewise.
   std::span<const Run> bind_contour();
+  /// Binds the quads along borders between materials (see BorderStrips).
+  std::span<const Run> bind_borders();
 
  private:
   static gl::VertexArrayHandle make_vertex_array();
@@ -33,7 +35,10 @@ class DrawnObject {
   gl::StreamBuffer strip_buffer_;
   gl::StreamBuffer strip_index_buffer_;
   gl::VertexArrayHandle mesh_array_;
+  gl::StaticBuffer border_buffer_;
+  gl::StreamBuffer border_index_buffer_;
   gl::VertexArrayHandle contour_array_;
+  gl::VertexArrayHandle border_array_;
 };
 
 }  // namespace rinkaku::passes

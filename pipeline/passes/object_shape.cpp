@@ -49,6 +49,7 @@ ObjectShape::ObjectShape(const mesh::Mesh& mesh, const glm::dmat4& world_from_ob
   for (const mesh::Part& part : mesh.parts) two_sided_ = two_sided_ || mesh.materials[part.material].two_sided;
   collect_vertices(mesh, topology);
   strips_.emplace(mesh, topology, two_sided_);
+  borders_.emplace(mesh, topology, vertices_, world_from_object);
   levels_.push_back({0, mesh::ContourFinder(mesh, topology), false});
   mesh::Mesh coarse = mesh;
   for (mesh::Level& level : mesh::levels(mesh, uneven)) {
@@ -108,6 +109,9 @@ const Look& ObjectShape::look(const View& view, const PixelRect& picture) {
   look_.strip_vertices = strips_->vertices();
   look_.strip_indices = strips_->indices();
   look_.strip_runs = strips_->runs();
+  borders_->collect(contour);
+  look_.border_indices = borders_->indices();
+  look_.border_runs = borders_->runs();
   return look_;
 }
 

@@ -11,6 +11,7 @@
 #include "mesh/contour.h"
 #include "mesh/mesh.h"
 #include "mesh/topology.h"
+#include "pipeline/passes/border_strips.h"
 #include "pipeline/passes/contour_strips.h"
 #include "pipeline/passes/shape_vertex.h"
 #include "pipeline/passes/view.h"
@@ -31,6 +32,8 @@ struct Look {
   std::span<const ShapeVertex> strip_vertices;  ///< the contour's quads, see ContourStrips
   std::span<const std::uint32_t> strip_indices;
   std::span<const Run> strip_runs;
+  std::span<const std::uint32_t> border_indices;  ///< of border_vertices(), see BorderStrips
+  std::span<const Run> border_runs;
 };
 
 /// An object of the scene as it stands in the world, and each frame which triangles face the eye and where the contour
@@ -50,6 +53,8 @@ class ObjectShape {
   const Look& last_look() const { return look_; }
 
   std::span<const ShapeVertex> vertices() const { return vertices_; }
+  /// Of the borders between materials; empty if there are none.
+  std::span<const BorderVertex> border_vertices() const { return borders_->vertices(); }
   const glm::dmat4& world_from_object() const { return world_from_object_; }
   /// Unit normals in the world are normalize(this * normal).
   const glm::mat3& world_from_normal() const { return world_from_normal_; }
@@ -83,6 +88,8 @@ class ObjectShape {
   std::vector<float> x_, y_, z_;  // of the welded points
   std::vector<Level> levels_;
   std::optional<ContourStrips> strips_;  // made once it is known whether the object is two-sided
+
+  std::optional<BorderStrips> borders_;
 
   double nearest_m_ = 0;
   std::vector<Run> front_runs_;

@@ -9,7 +9,7 @@ namespace rinkaku::passes {
 
 /// GLSL of screen_offset.glsl: pushes vertices across the screen. For vertex shaders of passes, together with
 /// OffsetUniforms. Vertex attributes: 0 position, 1 normal, 2 outline normal (w: rim of an edge's quad), 3 uv, 4
-/// colour.
+/// colour, 5 the direction across a border.
 std::string_view screen_offset_glsl();
 
 /// The uniforms that screen_offset.glsl declares.

@@ -18,3 +18,14 @@ vec4 pushed(vec4 clip, vec3 outline_normal, float distance_px, float by_slope) {
   clip.xy += direction * (distance_px * mix(1.0, slope, by_slope) * 2.0 * abs(clip.w)) / viewport_px;
   return clip;
 }
+
+// The clip position of a point that lies `distance_px` away on the screen in a direction within the object, not more
+// than four times as far as where the direction is seen at right angles.
+vec4 moved(vec4 clip, vec3 direction, float distance_px) {
+  vec4 n = clip_from_object * vec4(direction, 0.0);
+  float w = abs(clip.w);
+  float px_per_unit = length((n.xy * clip.w - clip.xy * n.w) * viewport_px) / (2.0 * w * w);
+  float most_px_per_unit = length(n.xyz) > 0.0 ? focal_px / w : 0.0;
+  float reach = max(px_per_unit, 0.25 * most_px_per_unit);
+  return reach > 0.0 ? clip + n * (distance_px / reach) : clip;
+}

@@ -17,6 +17,13 @@ struct ShapeVertex {
   std::array<std::uint8_t, 4> colour{};  ///< unorm, sRGB-encoded
 };
 
+/// A vertex of a strip that lies on a surface, at the locations 0 to 5.
+struct BorderVertex {
+  ShapeVertex shape;  ///< of the part whose colour the strip has
+  std::array<std::int16_t, 4>
+      across{};  ///< snorm; the direction in which the rim is moved, in the object's coordinates
+};
+
 /// Triangles of one part of the mesh within an index list.
 struct Run {
   std::uint32_t part = 0;

@@ -8,6 +8,10 @@ layout(location = 3) in vec2 uv;
 layout(location = 4) in vec4 colour;
 #endif
 
+#ifdef BORDER
+layout(location = 5) in vec3 across;
+#endif
+
 uniform mat3 world_from_normal;
 uniform vec2 offset_px;  // of the edge and of the rim
 
@@ -37,7 +41,13 @@ out float coverage;
 
 void main() {
   vec4 clip = clip_from_object * vec4(position, 1.0);
-#ifdef FEATHER
+#ifdef BORDER
+  bool rim = outline_normal.w > 0.5;
+  // From where the surface is drawn; half the colour at the edge, where the other part's quad begins with its half.
+  clip = moved(pushed(clip, outline_normal.xyz, offset_px.x, 1.0), across, rim ? 0.5 : 0.0);
+  coverage = rim ? 0.0 : 0.5;
+  clip.z *= 1.0003;  // before the triangle that it lies on. Depth is near / Z
+#elif defined(FEATHER)
   bool rim = outline_normal.w > 0.5;
   // As far to either side of the true edge, however the normal lies. The surface, which is pulled in by less where its
   // normal is not at right angles to the line of sight, only reaches over the feather's strong part.

@@ -21,9 +21,10 @@ enum Feature : unsigned {
   Feather = 64,
   Fine = 128,  // lit by vertex: the mesh is fine enough
   Even = 256,  // lit by triangle: no band's border runs through
+  Border = 512,
 };
 constexpr std::string_view feature_names[] = {"LIT",         "TEXTURED", "VERTEX_COLOURS", "MASKED", "TWO_SIDED",
-                                              "TRANSLUCENT", "FEATHER",  "FINE",           "EVEN"};
+                                              "TRANSLUCENT", "FEATHER",  "FINE",           "EVEN",   "BORDER"};
 
 // Half a pixel inwards; the feather reaches as far outwards.
 constexpr float inset_px = -0.5f, feather_px = 0.5f;
@@ -66,6 +67,7 @@ ToonPass::ToonPass(DrawnObject& object, const mesh::Mesh& mesh, const ToonOption
     const bool by_triangle = object.shape().has_levels() && (features & (Lit | TwoSided)) == Lit;
     style.even = by_triangle ? variant((features & ~Fine) | Even) : style.surface;
     style.feather = variant(features | Feather);
+    if (!object.shape().border_vertices().empty()) style.border = variant(features | Feather | Border);
     style.base_colour = material.base_colour;
     style.alpha_cutoff = material.alpha_cutoff;
     style.texture = material.texture;
@@ -104,20 +106,24 @@ std::size_t ToonPass::variant(unsigned features) {
   return variants_.size() - 1;
 }
 
-void ToonPass::draw(const DrawCall& call, std::span<const Run> runs, bool feather, bool translucent) {
+void ToonPass::draw(const DrawCall& call, std::span<const Run> runs, Stage stage) {
+  const bool surface = stage == Stage::Surface || stage == Stage::Translucent;
   const Variant* bound = nullptr;
   for (const Run& run : runs) {
     const PartStyle& style = parts_[run.part];
-    if (style.translucent != translucent) continue;
-    const Variant& v = variants_[feather ? style.feather : run.even ? style.even : style.surface];
+    if (style.translucent != (stage == Stage::Translucent)) continue;
+    const Variant& v = variants_[stage == Stage::Border    ? style.border
+                                 : stage == Stage::Feather ? style.feather
+                                 : run.even                ? style.even
+                                                           : style.surface];
     if (&v != bound) {
       glUseProgram(v.program.name());
       v.offset.set(call);
       glUniformMatrix3fv(v.world_from_normal, 1, GL_FALSE, glm::value_ptr(object_.shape().world_from_normal()));
-      const float overlap_px = feather ? object_.shape().last_look().overlap_px : 0;
+      const float overlap_px = stage == Stage::Feather ? object_.shape().last_look().overlap_px : 0;
       glUniform2f(v.offset_px, inset_px - overlap_px, feather_px);
       glUniform1f(v.edge_coverage, 1 + overlap_px);
-      glUniform1i(v.flip_back_faces, feather ? 0 : 1);
+      glUniform1i(v.flip_back_faces, surface ? 1 : 0);
       bound = &v;
     }
     glUniform4fv(v.base_colour, 1, glm::value_ptr(style.base_colour));
@@ -128,12 +134,13 @@ void ToonPass::draw(const DrawCall& call, std::span<const Run> runs, bool feathe
   }
 }
 
-void ToonPass::draw_surface(const DrawCall& call) { draw(call, object_.bind_front(), false, false); }
+void ToonPass::draw_surface(const DrawCall& call) { draw(call, object_.bind_front(), Stage::Surface); }
 
 void ToonPass::draw_edges(const DrawCall& call) {
-  draw(call, object_.bind_contour(), true, false);
+  draw(call, object_.bind_borders(), Stage::Border);
+  draw(call, object_.bind_contour(), Stage::Feather);
   const bool any = std::any_of(parts_.begin(), parts_.end(), [](const PartStyle& p) { return p.translucent; });
-  if (any) draw(call, object_.bind_front(), false, true);
+  if (any) draw(call, object_.bind_front(), Stage::Translucent);
 }
 
 }  // namespace rinkaku::passes

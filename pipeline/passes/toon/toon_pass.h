@@ -42,14 +42,15 @@ class ToonPass : public ObjectPass {
     GLint edge_coverage = -1;
   };
   struct PartStyle {
-    std::size_t surface = 0, even = 0, feather = 0;  // indices of variants_
+    std::size_t surface = 0, even = 0, feather = 0, border = 0;  // indices of variants_
     glm::vec4 base_colour{1};
     float alpha_cutoff = 0.5f;
     int texture = -1;
     bool translucent = false;
   };
+  enum class Stage { Surface, Translucent, Feather, Border };
   std::size_t variant(unsigned features);
-  void draw(const DrawCall& call, std::span<const Run> runs, bool feather, bool translucent);
+  void draw(const DrawCall& call, std::span<const Run> runs, Stage stage);
 
   DrawnObject& object_;
   ToonOptions options_;

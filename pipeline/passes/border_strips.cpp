@@ -1,0 +1,92 @@
+#include "pipeline/passes/border_strips.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+
+namespace rinkaku::passes {
+namespace {
+
+bool look_alike(const mesh::Material& a, const mesh::Material& b) {
+  return a.base_colour == b.base_colour && a.texture == b.texture && a.alpha == b.alpha;
+}
+
+std::array<std::int16_t, 4> snorm(const glm::dvec3& v) {
+  auto code = [](double f) { return static_cast<std::int16_t>(std::lround(std::clamp(f, -1.0, 1.0) * 32767.0)); };
+  return {code(v.x), code(v.y), code(v.z), 0};
+}
+
+// In the object's coordinates, of length 1: in the triangle's plane, at right angles to the edge in the world, away
+// from the edge.
+glm::dvec3 across(const mesh::Topology& topology, const mesh::Edge& edge, std::uint32_t face,
+                  const glm::dmat3& world_from_object) {
+  const glm::uvec3& f = topology.faces[face];
+  const std::uint32_t opposite = f.x + f.y + f.z - edge.a - edge.b;
+  const glm::dvec3 a = world_from_object * glm::dvec3(topology.points[edge.a]);
+  const glm::dvec3 along = world_from_object * glm::dvec3(topology.points[edge.b]) - a;
+  const glm::dvec3 to = world_from_object * glm::dvec3(topology.points[opposite]) - a;
+  const double squared = glm::dot(along, along);
+  const glm::dvec3 upright = squared > 0 ? to - along * (glm::dot(to, along) / squared) : to;
+  const glm::dvec3 direction = glm::inverse(world_from_object) * upright;
+  const double length = glm::length(direction);
+  return length > 0 ? direction / length : glm::dvec3(0);
+}
+
+}  // namespace
+
+BorderStrips::BorderStrips(const mesh::Mesh& mesh, const mesh::Topology& topology,
+                           std::span<const ShapeVertex> vertices, const glm::dmat4& world_from_object) {
+  std::vector<std::uint32_t> part_of(mesh.triangles.size());
+  for (std::uint32_t p = 0; p < mesh.parts.size(); ++p) {
+    std::fill_n(part_of.begin() + mesh.parts[p].first_triangle, mesh.parts[p].triangle_count, p);
+  }
+  struct Border {
+    std::uint32_t part, edge, of, over;  // the face whose colour it has, and the one it lies on
+  };
+  std::vector<Border> borders;
+  const std::uint32_t two_faced = topology.consistent_edges + topology.inconsistent_edges;
+  for (std::uint32_t e = 0; e < two_faced; ++e) {
+    const mesh::Edge& edge = topology.edges[e];
+    const mesh::Part &part0 = mesh.parts[part_of[edge.face0]], &part1 = mesh.parts[part_of[edge.face1]];
+    if (look_alike(mesh.materials[part0.material], mesh.materials[part1.material])) continue;
+    borders.push_back({part_of[edge.face0], e, edge.face0, edge.face1});
+    borders.push_back({part_of[edge.face1], e, edge.face1, edge.face0});
+  }
+  std::stable_sort(borders.begin(), borders.end(), [](const Border& a, const Border& b) { return a.part < b.part; });
+  for (const Border& border : borders) {
+    const mesh::Edge& edge = topology.edges[border.edge];
+    const std::array<std::int16_t, 4> direction =
+        snorm(across(topology, edge, border.over, glm::dmat3(world_from_object)));
+    for (std::int16_t rim : {0, 32767}) {
+      for (std::uint32_t point : {edge.a, edge.b}) {
+        BorderVertex v{vertices[mesh::corner_at(mesh, border.of, point)], direction};
+        v.shape.outline_normal[3] = rim;
+        vertices_.push_back(v);
+      }
+    }
+    quads_.push_back({border.part, border.of, border.over});
+  }
+  indices_.reserve(quads_.size() * 6);
+  runs_.reserve(mesh.parts.size());
+}
+
+void BorderStrips::collect(const mesh::Contour& contour) {
+  indices_.clear();
+  runs_.clear();
+  for (std::uint32_t q = 0; q < quads_.size(); ++q) {
+    const Quad& quad = quads_[q];
+    if (contour.front[quad.face0] == 0 || contour.front[quad.face1] == 0) continue;
+    if (runs_.empty() || runs_.back().part != quad.part) {
+      runs_.push_back({quad.part, static_cast<std::uint32_t>(indices_.size()), 0, false});
+    }
+    for (std::uint32_t corner : {0u, 1u, 2u, 2u, 1u, 3u}) indices_.push_back(4 * q + corner);
+    runs_.back().index_count += 6;
+  }
+}
+
+}  // namespace rinkaku::passes
