@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
+#include "pipeline/line.h"
 #include "pipeline/plan.h"
 #include "pipeline/scene.h"
-#include "pipeline/stage_times.h"
 
 namespace rinkaku::pipeline {
 
@@ -23,11 +23,6 @@ struct RenderOptions {
   std::int64_t end_frame = std::numeric_limits<std::int64_t>::max();  ///< exclusive
   std::string layers_folder{};                                        ///< empty: layers are not written
   bool overwrite = false;
-};
-
-struct StageReport {
-  std::string name;
-  StageTimes times;
 };
 
 struct RenderReport {

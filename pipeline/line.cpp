@@ -1,0 +1,146 @@
+#include "pipeline/line.h"
+
+#include <chrono>
+#include <exception>
+#include <thread>
+#include <utility>
+
+#include "pipeline/bounded_queue.h"
+
+namespace rinkaku::pipeline {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using Queue = BoundedQueue<Work>;
+
+// Deep enough to even out single slow frames, shallow enough that memory stays small: at 1080p a frame is 3 MB.
+constexpr std::size_t queue_frames = 4;
+
+// Worker threads that are joined on the way out, whichever way that is; closing the queues lets them go.
+class Threads {
+ public:
+  explicit Threads(std::vector<Queue*> queues) : queues_(std::move(queues)) {}
+  ~Threads() {
+    for (Queue* queue : queues_) queue->abandon();
+    join();
+  }
+  template <typename Body>
+  void start(Body body) {
+    threads_.emplace_back(std::move(body));
+  }
+  void join() {
+    for (std::thread& t : threads_) t.join();
+    threads_.clear();
+  }
+
+ private:
+  std::vector<Queue*> queues_;
+  std::vector<std::thread> threads_;
+};
+
+void decode_all(const Line::Decode& decode, StageTimes& times, Queue& out) {
+  try {
+    while (true) {
+      const auto start = Clock::now();
+      std::optional<Work> work = decode();
+      if (!work) break;
+      times.add(Clock::now() - start);
+      if (!out.push(std::move(*work))) break;
+    }
+    out.end();
+  } catch (...) {
+    out.end(std::current_exception());
+  }
+}
+
+// Takes from one queue, runs the stages, hands on. Whatever is thrown goes to the consumer and stops the producer.
+template <typename Stages>
+void hand_on(Queue& in, const Stages& stages, Queue& out, const std::function<void()>& each = {}) {
+  try {
+    while (std::optional<Work> work = in.pop()) {
+      for (auto* stage : stages) (*stage)(*work);
+      if (!out.push(std::move(*work))) break;
+      if (each) each();
+    }
+    out.end();
+  } catch (...) {
+    out.end(std::current_exception());
+  }
+  in.abandon();
+}
+
+// The last of the line: returns what any stage threw.
+template <typename Stages>
+std::exception_ptr take_in(Queue& in, const Stages& stages, std::int64_t& frames) {
+  std::exception_ptr failure;
+  try {
+    while (std::optional<Work> work = in.pop()) {
+      for (auto* stage : stages) (*stage)(*work);
+      ++frames;
+    }
+  } catch (...) {
+    failure = std::current_exception();
+  }
+  in.abandon();
+  return failure;
+}
+
+}  // namespace
+
+void Line::Stage::operator()(Work& work) {
+  const auto start = Clock::now();
+  step(work);
+  report.times.add(Clock::now() - start);
+}
+
+void Line::add(Group group, const char* name, Step step) { stages_.push_back({group, {name, {}}, std::move(step)}); }
+
+std::vector<Line::Stage*> Line::stages_of(Group group) {
+  std::vector<Stage*> found;
+  for (Stage& stage : stages_) {
+    if (stage.group == group) found.push_back(&stage);
+  }
+  return found;
+}
+
+std::int64_t Line::run(const Decode& decode, const std::function<void()>& drawn_one) {
+  const auto track = stages_of(Group::Track), draw = stages_of(Group::Draw);
+  const auto composite = stages_of(Group::Composite), encode = stages_of(Group::Encode);
+  Queue decoded(queue_frames), tracked(queue_frames), drawn(queue_frames), finished(queue_frames);
+  Queue& to_draw = track.empty() ? decoded : tracked;
+  Queue& from_draw = composite.empty() ? finished : drawn;
+  std::int64_t frames = 0;
+  std::exception_ptr failure;  // of any stage: exceptions travel down the queues and end here
+  {
+    Threads threads({&decoded, &tracked, &drawn, &finished});
+    threads.start([&] { decode_all(decode, decode_times_, decoded); });
+    if (!track.empty()) threads.start([&] { hand_on(decoded, track, tracked); });
+    if (!composite.empty()) threads.start([&] { hand_on(drawn, composite, finished); });
+    threads.start([&] { failure = take_in(finished, encode, frames); });
+    hand_on(to_draw, draw, from_draw, drawn_one);
+    threads.join();
+  }
+  if (failure) std::rethrow_exception(failure);
+  return frames;
+}
+
+std::vector<StageReport> Line::reports() const {
+  std::vector<StageReport> all{{"decode", decode_times_}};
+  for (const Stage& stage : stages_) all.push_back(stage.report);
+  return all;
+}
+
+passes::Layer SpentLayers::take() {
+  std::lock_guard lock(mutex_);
+  if (layers_.empty()) return {};
+  passes::Layer layer = std::move(layers_.back());
+  layers_.pop_back();
+  return layer;
+}
+
+void SpentLayers::give_back(passes::Layer layer) {
+  std::lock_guard lock(mutex_);
+  layers_.push_back(std::move(layer));
+}
+
+}  // namespace rinkaku::pipeline

@@ -1,0 +1,79 @@
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "pipeline/frame/frame.h"
+#include "pipeline/frame/tracked_pose.h"
+#include "pipeline/passes/layer.h"
+#include "pipeline/stage_times.h"
+
+namespace rinkaku::pipeline {
+
+/// What travels from stage to stage: everything of one frame, under the frame's number.
+struct Work {
+  Frame frame;
+  std::optional<TrackedPose> pose;
+  passes::Layer layer;
+};
+
+struct StageReport {
+  std::string name;
+  StageTimes times;
+};
+
+/// The stages of a run, grouped by the thread that they share:
+///
+///     decode -> track -> draw -> composite -> encode
+///
+/// joined by bounded queues, so that memory does not grow with the video. Drawing runs on the thread that calls run(),
+/// as its GL context lives there; a group without stages has no thread. Frames keep their order.
+class Line {
+ public:
+  using Step = std::function<void(Work&)>;
+  enum class Group { Track, Draw, Composite, Encode };
+
+  /// Stages of a group run in the order in which they were added. `name` is what reports call it.
+  void add(Group group, const char* name, Step step);
+
+  /// Gives the next frame's work, nothing after the last. Runs on the decoding thread; may throw.
+  using Decode = std::function<std::optional<Work>()>;
+  /// Runs until `decode` gives nothing more, then returns how many frames came through to the end. `drawn` is called on
+  /// the calling thread after each frame's drawing. Rethrows what a stage threw, once all threads have ended.
+  std::int64_t run(const Decode& decode, const std::function<void()>& drawn);
+
+  /// Of each stage, in the order of adding, decoding first.
+  std::vector<StageReport> reports() const;
+
+ private:
+  struct Stage {
+    Group group;
+    StageReport report;
+    Step step;
+    void operator()(Work& work);
+  };
+  std::vector<Stage*> stages_of(Group group);
+
+  StageTimes decode_times_;
+  std::deque<Stage> stages_;
+};
+
+/// Layers on their way back from where they are laid over the plate to where they are drawn, with their memory.
+class SpentLayers {
+ public:
+  /// One whose memory may be used again, or an empty one.
+  passes::Layer take();
+  void give_back(passes::Layer layer);
+
+ private:
+  std::mutex mutex_;
+  std::vector<passes::Layer> layers_;
+};
+
+}  // namespace rinkaku::pipeline
