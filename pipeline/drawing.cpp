@@ -8,6 +8,7 @@
 
 #include "outline/pass/hull_pass.h"
 #include "pipeline/gl/context.h"
+#include "pipeline/passes/holdout/holdout_pass.h"
 #include "pipeline/passes/layer_renderer.h"
 #include "pipeline/passes/toon/band_borders.h"
 #include "pipeline/passes/toon/toon_pass.h"
@@ -92,7 +93,11 @@ Drawing make_drawing(const Scene& scene, const passes::PixelRect& picture) {
     passes::StyledObject one;
     one.object = std::make_unique<passes::DrawnObject>(std::move(prepared.shape));
     // The list of passes, in drawing order. A new pass adds its line here.
-    one.passes.push_back(std::make_unique<passes::ToonPass>(*one.object, prepared.imported.mesh, prepared.toon));
+    if (object.holdout) {
+      one.passes.push_back(std::make_unique<passes::HoldoutPass>(*one.object));
+    } else {
+      one.passes.push_back(std::make_unique<passes::ToonPass>(*one.object, prepared.imported.mesh, prepared.toon));
+    }
     add_outline(one.passes, *one.object, object);
     styled.push_back(std::move(one));
   }

@@ -69,9 +69,16 @@ Verdict toon(const Facts& f) {
 
 Verdict flat(const Facts& f) {
   if (!f.draws()) return {false, no_object};
-  const std::size_t n = f.count([](const ObjectScene& o) { return !o.toon.has_value(); });
-  if (n == 0) return {false, "every object is toon-shaded"};
+  const std::size_t n = f.count([](const ObjectScene& o) { return !o.toon.has_value() && !o.holdout; });
+  if (n == 0) return {false, "no object has toon = false"};
   return {true, objects(n) + " drawn flat (toon = false)"};
+}
+
+Verdict holdout(const Facts& f) {
+  if (!f.draws()) return {false, no_object};
+  const std::size_t n = f.count([](const ObjectScene& o) { return o.holdout; });
+  if (n == 0) return {false, "no object is a holdout"};
+  return {true, objects(n) + " cut out of what is behind"};
 }
 
 Verdict outline(const Facts& f) {
@@ -130,8 +137,9 @@ const std::vector<Kind>& kinds() {
       {"import", import, {}},
       {"toon", toon, {"import"}},
       {"flat", flat, {"import"}},
+      {"holdout", holdout, {"import"}},
       {"outline", outline, {"import"}},
-      {"draw", draw, {"decode", "track", "smooth", "toon", "flat", "outline"}},
+      {"draw", draw, {"decode", "track", "smooth", "toon", "flat", "holdout", "outline"}},
       {"lens", lens, {"draw"}},
       {"composite", composite, {"decode", "draw", "lens"}},
       {"unmultiply", unmultiply, {"draw", "lens"}},

@@ -232,6 +232,14 @@ ObjectScene SceneReader::read_object(const Table& object) const {
   scene.anchor = anchor == "base" ? ObjectScene::Anchor::Base : ObjectScene::Anchor::Origin;
   scene.crease_deg = object.number("crease_deg", {0, 180}).value_or(scene.crease_deg);
   scene.colour = read_colour(object, "colour");
+  scene.holdout = object.flag("holdout").value_or(false);
+  if (scene.holdout) {
+    for (const std::string_view key : {"colour", "toon", "outline"}) {
+      if (object.has(key))
+        throw object.error_at(key, "has no meaning for a holdout, which is not drawn", "leave it out");
+    }
+    return scene;
+  }
   scene.toon = read_toon(object);
   scene.outline = read_outline(object);
   return scene;

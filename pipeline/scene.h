@@ -80,6 +80,8 @@ struct ObjectScene {
   std::optional<std::array<double, 3>> colour;  ///< sRGB; replaces the materials' base colours
   std::optional<ToonScene> toon;                ///< empty: flat colour, unlit
   std::optional<OutlineScene> outline;
+  /// The model of a filmed thing: not drawn, but CG behind it is hidden.
+  bool holdout = false;
 };
 
 struct LightScene {

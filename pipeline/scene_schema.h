@@ -18,7 +18,7 @@ inline toml::Schema scene_schema() {
       {.path = "light", .keys = {"direction"}},
       {.path = "object",
        .keys = {"mesh", "name", "position_m", "rotation_deg", "height_m", "scale", "up", "anchor", "crease_deg",
-                "colour", "toon", "outline"},
+                "colour", "toon", "outline", "holdout"},
        .repeated = true},
       {.path = "object.toon", .keys = {"bands", "shade_colour"}},
       {.path = "object.outline", .keys = {"width_px", "colour"}},

@@ -23,7 +23,8 @@ class Frames {
  public:
   explicit Frames(const std::vector<std::string>& videos) {
     for (const std::string& video : videos) {
-      sources_.push_back(source::open(video));
+      // Stills are pictures of their own, none too near to the last: as if taken a second apart.
+      sources_.push_back(source::open(video, {.image_rate = {1, 1}}));
       total_ += sources_.back()->description().frame_count;
     }
   }

@@ -31,10 +31,7 @@ void HullPass::draw_edges(const passes::DrawCall& call) {
   glUniform2f(offset_px_, under_px, reach_px);
   glUniform1f(breadth_px_, reach_px - under_px);
   glDepthMask(GL_TRUE);
-  for (const passes::Run& run : object_.bind_contour()) {
-    glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(run.index_count), GL_UNSIGNED_INT,
-                   reinterpret_cast<const void*>(static_cast<std::uintptr_t>(run.first_index) * sizeof(GLuint)));
-  }
+  for (const passes::Run& run : object_.bind_contour()) passes::draw_run(run);
   glDepthMask(GL_FALSE);
 }
 

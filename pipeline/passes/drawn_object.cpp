@@ -1,6 +1,7 @@
 #include "pipeline/passes/drawn_object.h"
 
 #include <cstddef>
+#include <cstdint>
 #include <utility>
 
 namespace rinkaku::passes {
@@ -62,6 +63,11 @@ std::span<const Run> DrawnObject::bind_borders() {
   if (shape_.last_look().border_runs.empty()) return {};
   glBindVertexArray(border_array_.name());
   return shape_.last_look().border_runs;
+}
+
+void draw_run(const Run& run) {
+  glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(run.index_count), GL_UNSIGNED_INT,
+                 reinterpret_cast<const void*>(static_cast<std::uintptr_t>(run.first_index) * sizeof(GLuint)));
 }
 
 }  // namespace rinkaku::passes

@@ -19,7 +19,7 @@ class DrawnObject {
 
   /// Sends the last look's triangles and contour to the GPU.
   void upload();
-  /// Binds vertices and the front-facing triangles; draw the runs with glDrawElements(GL_TRIANGLES, ...).
+  /// Binds vertices and the front-facing triangles; draw the runs with draw_run().
   std::span<const Run> bind_front();
   /// Binds the contour's quads (see ContourStrips); draw them likewise.
   std::span<const Run> bind_contour();
@@ -40,5 +40,8 @@ class DrawnObject {
   gl::VertexArrayHandle contour_array_;
   gl::VertexArrayHandle border_array_;
 };
+
+/// Draws a run of what is bound.
+void draw_run(const Run& run);
 
 }  // namespace rinkaku::passes

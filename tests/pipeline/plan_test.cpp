@@ -90,6 +90,17 @@ TEST(Plan, EachLookRunsOnlyIfAnObjectHasIt) {
   EXPECT_TRUE(plan_of(scene).runs("outline"));
 }
 
+TEST(Plan, HoldoutsAreCutOutAndNotShaded) {
+  Scene scene = drawn_scene();
+  EXPECT_FALSE(plan_of(scene).runs("holdout"));
+  scene.objects.emplace_back();
+  scene.objects.back().holdout = true;
+  const Plan plan = plan_of(scene);
+  EXPECT_EQ(stage(plan, "holdout").why, "1 object cut out of what is behind");
+  EXPECT_EQ(stage(plan, "toon").why, "1 object toon-shaded");
+  EXPECT_FALSE(plan.runs("flat"));
+}
+
 TEST(Plan, LensRunsOnlyForADistortedCameraThatSeesCg) {
   EXPECT_FALSE(plan_of(drawn_scene(), pinhole()).runs("lens"));
   EXPECT_TRUE(plan_of(drawn_scene(), bent()).runs("lens"));

@@ -52,6 +52,9 @@ INSTANTIATE_TEST_SUITE_P(
                  "DIR/scene.toml:8:1: unknown key 'mehs' in [[object]]; did you mean 'mesh'?"},
         BadScene{"OtherCase", object + "Toon = true\n",
                  "DIR/scene.toml:8:1: unknown key 'Toon' in [[object]]; did you mean 'toon'?"},
+        BadScene{"LookOfAHoldout", object + "holdout = true\noutline = true\n",
+                 "DIR/scene.toml:9:1: 'outline' in [[object]] has no meaning for a holdout, which is not drawn; leave it "
+                 "out"},
         BadScene{"UnitLeftOut", object + "height = 1\n",
                  "DIR/scene.toml:8:1: unknown key 'height' in [[object]]; did you mean 'height_m'?"},
         BadScene{"KeyOfAnotherTable", object + "camera = \"camera.yml\"\n",

@@ -26,9 +26,6 @@ enum Feature : unsigned {
 constexpr std::string_view feature_names[] = {"LIT",         "TEXTURED", "VERTEX_COLOURS", "MASKED", "TWO_SIDED",
                                               "TRANSLUCENT", "FEATHER",  "FINE",           "EVEN",   "BORDER"};
 
-// Half a pixel inwards; the feather reaches as far outwards.
-constexpr float inset_px = -0.5f, feather_px = 0.5f;
-
 // Whether lighting the vertices and interpolating gives the same bands as lighting each pixel. Where the normals at a
 // triangle's corners differ by an angle d, the two differ by d^2 / 8, in a triangle over which brightness changes by d:
 // at 15 degrees a band's border is displaced by 3 % of a triangle.
@@ -121,7 +118,7 @@ void ToonPass::draw(const DrawCall& call, std::span<const Run> runs, Stage stage
       v.offset.set(call);
       glUniformMatrix3fv(v.world_from_normal, 1, GL_FALSE, glm::value_ptr(object_.shape().world_from_normal()));
       const float overlap_px = stage == Stage::Feather ? object_.shape().last_look().overlap_px : 0;
-      glUniform2f(v.offset_px, inset_px - overlap_px, feather_px);
+      glUniform2f(v.offset_px, -feather_px - overlap_px, feather_px);
       glUniform1f(v.edge_coverage, 1 + overlap_px);
       glUniform1i(v.flip_back_faces, surface ? 1 : 0);
       bound = &v;
@@ -129,8 +126,7 @@ void ToonPass::draw(const DrawCall& call, std::span<const Run> runs, Stage stage
     glUniform4fv(v.base_colour, 1, glm::value_ptr(style.base_colour));
     glUniform1f(v.alpha_cutoff, style.alpha_cutoff);
     if (style.texture >= 0) glBindTextureUnit(0, textures_[style.texture].name());
-    glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(run.index_count), GL_UNSIGNED_INT,
-                   reinterpret_cast<const void*>(static_cast<std::uintptr_t>(run.first_index) * sizeof(GLuint)));
+    draw_run(run);
   }
 }
 
