@@ -1,6 +1,6 @@
 // Interpolated corrected curvature measures of each face: area, twice the mean curvature, Gaussian curvature, flat area.
 
-layout(local_size_x = 64) in;
+layout(local_size_x = 256) in;
 
 layout(std430, binding = 0) readonly buffer Points { vec4 points[]; };
 layout(std430, binding = 1) readonly buffer Faces { uint faces[]; };

@@ -1,6 +1,6 @@
 // Sums the measures of each point's faces, in the order of the faces, and divides: curvatures at points.
 
-layout(local_size_x = 64) in;
+layout(local_size_x = 256) in;
 
 layout(std430, binding = 2) readonly buffer First { uint first[]; };
 layout(std430, binding = 3) readonly buffer Corners { uint corners[]; };

@@ -1,6 +1,6 @@
 // Max's vertex normals, gathered by point: the sum of cross products over the squared lengths of the edges at the point.
 
-layout(local_size_x = 64) in;
+layout(local_size_x = 256) in;
 
 layout(std430, binding = 0) readonly buffer Points { vec4 points[]; };
 layout(std430, binding = 1) readonly buffer Faces { uint faces[]; };

@@ -10,7 +10,7 @@
 namespace rinkaku::outline {
 namespace {
 
-constexpr GLuint kGroup = 64;          // as the shaders have it
+constexpr GLuint kGroup = 256;         // as the shaders have it
 constexpr GLuint kMostGroups = 65535;  // that every driver takes in a row
 enum Binding : GLuint { kPoints, kFaces, kFirst, kCorners, kNormals, kMeasures, kCurvatures };
 
