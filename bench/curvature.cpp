@@ -77,10 +77,11 @@ void gpu_every_frame(benchmark::State& state) {
 }
 BENCHMARK(gpu_every_frame)->Unit(benchmark::kMillisecond)->UseRealTime();
 
-void connectivity(benchmark::State& state) {
-  for (auto _ : state) benchmark::DoNotOptimize(outline::face_stars(surface()).corners.data());
+void set_up(benchmark::State& state, outline::CurvatureMethod method) {
+  for (auto _ : state) benchmark::DoNotOptimize(outline::CurvatureSolver(surface(), method).stars().corners.data());
 }
-BENCHMARK(connectivity)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(set_up, icnc, outline::CurvatureMethod::Icnc)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(set_up, quadric, outline::CurvatureMethod::Quadric)->Unit(benchmark::kMillisecond);
 
 }  // namespace
 

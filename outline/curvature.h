@@ -65,7 +65,7 @@ class CurvatureSolver {
   Curvature curvature_;
 };
 
-/// The curvature of a mesh as it is. Cost: as the solver, and 0.1 microseconds a triangle for the connectivity.
+/// The curvature of a mesh as it is. Cost: one solve, and 10 ns a triangle to set up (Quadric: 60).
 Curvature curvature(const mesh::Topology& topology, CurvatureMethod method = CurvatureMethod::Icnc);
 
 /// What scaled points are multiplied by to be CorrectedCurvature::kSize across: a power of two, so nothing is rounded.

@@ -25,8 +25,8 @@ class QuadricFit {
  public:
   explicit QuadricFit(const FaceStars& stars);
 
-  /// `points` and `normals`: as CorrectedCurvature's. `values`: kept where no quadric can be fitted. About 2
-  /// microseconds a point.
+  /// `points` and `normals`: as CorrectedCurvature's. `values`: kept where no quadric can be fitted. About a
+  /// microsecond a point.
   void run(std::span<const glm::vec4> points, std::span<const glm::vec4> normals, std::span<MeanAndGauss> values) const;
 
  private:
