@@ -55,4 +55,14 @@ struct CalibrateCall {
 };
 int calibrate(const CalibrateCall& call);
 
+struct CurvatureCall {
+  std::string mesh;
+  std::string method = "icnc";  ///< "meyer", "icnc", "quadric" or "auto"
+  std::string output;
+  std::string picture;
+  bool force = false;
+  bool json = false;
+};
+int curvature(const CurvatureCall& call);
+
 }  // namespace rinkaku::app

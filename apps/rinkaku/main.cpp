@@ -26,6 +26,7 @@ struct CommandLine {
   InspectCall inspect;
   BoardCall board;
   CalibrateCall calibrate;
+  CurvatureCall curvature;
 
   CommandLine() {
     app.name("rinkaku");
@@ -37,6 +38,7 @@ struct CommandLine {
     add_inspect();
     add_board();
     add_calibrate();
+    add_curvature();
   }
 
   CLI::App* add(const char* name, const char* description, const char* example, std::function<int()> command) {
@@ -115,6 +117,25 @@ struct CommandLine {
     add_force(sub, c.force);
     add_json(sub, c.json);
   }
+
+  void add_curvature() {
+    CurvatureCall& c = curvature;
+    CLI::App* sub =
+        add("curvature", "Measure a mesh's curvature at each vertex, as a table and as a picture.",
+            "rinkaku curvature cat.glb -o cat.csv --picture cat.png", [&c] { return rinkaku::app::curvature(c); });
+    sub->add_option("MESH", c.mesh, "Mesh file (glTF, GLB, VRM, OBJ, PLY, OFF, STL, FBX, ...)")->required();
+    sub->add_option("--method", c.method,
+                    "meyer: cotangents; icnc: corrected curvature, robust; quadric: fitted to two rings; auto: icnc, "
+                    "averaged where triangles are irregular")
+        ->check(CLI::IsMember({"meyer", "icnc", "quadric", "auto"}))
+        ->capture_default_str();
+    sub->add_option("-o,--output", c.output,
+                    "CSV file: vertex, x, y, z, mean, gauss, k1, k2; vertices at one position are one, convex is "
+                    "positive, in the file's own units");
+    sub->add_option("--picture", c.picture, "PNG file: convex red, flat white, concave blue");
+    add_force(sub, c.force);
+    add_json(sub, c.json);
+  }
 };
 
 int say(std::string line, int status) {
@@ -127,7 +148,7 @@ int say(std::string line, int status) {
 
 // CLI11 would only say that a command is missing.
 void check_command(CLI::App& app, int argc, char** argv) {
-  const char* remedy = "give render, explain, inspect, board or calibrate, or see rinkaku --help";
+  const char* remedy = "give render, explain, inspect, board, calibrate or curvature, or see rinkaku --help";
   if (argc < 2) throw rinkaku::input_error("", "no command was given", remedy);
   const std::string command = argv[1];
   const auto named_so = [&command](const CLI::App* sub) { return sub->get_name() == command; };

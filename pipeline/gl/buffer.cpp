@@ -18,6 +18,15 @@ StaticBuffer::StaticBuffer(std::span<const std::byte> bytes) : handle_(create())
   glNamedBufferStorage(handle_.name(), static_cast<GLsizeiptr>(bytes.size()), bytes.data(), 0);
 }
 
+StorageBuffer::StorageBuffer(std::size_t size_bytes) : handle_(create()) {
+  glNamedBufferStorage(handle_.name(), static_cast<GLsizeiptr>(size_bytes), nullptr, 0);
+}
+
+void StorageBuffer::read(std::span<std::byte> bytes) const {
+  glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
+  glGetNamedBufferSubData(handle_.name(), 0, static_cast<GLsizeiptr>(bytes.size()), bytes.data());
+}
+
 StreamBuffer::StreamBuffer() {
   for (Slot& slot : ring_) slot.handle = BufferHandle(create());
 }

@@ -19,6 +19,19 @@ class StaticBuffer {
   BufferHandle handle_;
 };
 
+/// Memory on the GL side that shaders write. Its contents are unset at first.
+class StorageBuffer {
+ public:
+  StorageBuffer() = default;
+  explicit StorageBuffer(std::size_t size_bytes);
+  GLuint name() const { return handle_.name(); }
+  /// Copies the first bytes.size() bytes to `bytes`. Waits for what was dispatched before to end.
+  void read(std::span<std::byte> bytes) const;
+
+ private:
+  BufferHandle handle_;
+};
+
 /// Memory on the GL side that is filled anew every frame: several buffers in turn, so that writing does not wait for
 /// drawing that still reads the last one, and nothing is allocated once they are large enough.
 class StreamBuffer {

@@ -29,15 +29,25 @@ ShaderHandle compile(GLenum stage, std::string_view name, std::span<const std::s
 }  // namespace
 
 Program::Program(std::string_view name, std::span<const std::string_view> defines,
-                 std::span<const std::string_view> vertex_parts, std::span<const std::string_view> fragment_parts)
-    : handle_(glCreateProgram()) {
-  const ShaderHandle vertex = compile(GL_VERTEX_SHADER, name, defines, vertex_parts);
-  const ShaderHandle fragment = compile(GL_FRAGMENT_SHADER, name, defines, fragment_parts);
-  glAttachShader(handle_.name(), vertex.name());
-  glAttachShader(handle_.name(), fragment.name());
+                 std::span<const std::string_view> vertex_parts, std::span<const std::string_view> fragment_parts) {
+  const ShaderHandle shaders[] = {compile(GL_VERTEX_SHADER, name, defines, vertex_parts),
+                                  compile(GL_FRAGMENT_SHADER, name, defines, fragment_parts)};
+  link(name, shaders);
+}
+
+Program Program::compute(std::string_view name, std::span<const std::string_view> defines,
+                         std::span<const std::string_view> parts) {
+  const ShaderHandle shaders[] = {compile(GL_COMPUTE_SHADER, name, defines, parts)};
+  Program program;
+  program.link(name, shaders);
+  return program;
+}
+
+void Program::link(std::string_view name, std::span<const ShaderHandle> shaders) {
+  handle_ = ProgramHandle(glCreateProgram());
+  for (const ShaderHandle& shader : shaders) glAttachShader(handle_.name(), shader.name());
   glLinkProgram(handle_.name());
-  glDetachShader(handle_.name(), vertex.name());
-  glDetachShader(handle_.name(), fragment.name());
+  for (const ShaderHandle& shader : shaders) glDetachShader(handle_.name(), shader.name());
   GLint ok = GL_FALSE;
   glGetProgramiv(handle_.name(), GL_LINK_STATUS, &ok);
   if (ok != GL_TRUE) {

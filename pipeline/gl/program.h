@@ -9,7 +9,7 @@
 
 namespace rinkaku::gl {
 
-/// A linked vertex and fragment shader.
+/// A linked vertex and fragment shader, or a compute shader.
 class Program {
  public:
   Program() = default;
@@ -20,6 +20,10 @@ class Program {
   Program(std::string_view name, std::span<const std::string_view> defines,
           std::span<const std::string_view> vertex_parts, std::span<const std::string_view> fragment_parts);
 
+  /// The same with a compute shader, alone.
+  static Program compute(std::string_view name, std::span<const std::string_view> defines,
+                         std::span<const std::string_view> parts);
+
   GLuint name() const { return handle_.name(); }
   explicit operator bool() const { return static_cast<bool>(handle_); }
 
@@ -27,6 +31,8 @@ class Program {
   GLint uniform(const char* uniform_name) const { return glGetUniformLocation(handle_.name(), uniform_name); }
 
  private:
+  void link(std::string_view name, std::span<const ShaderHandle> shaders);
+
   ProgramHandle handle_;
 };
 

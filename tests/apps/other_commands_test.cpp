@@ -146,13 +146,14 @@ TEST_P(HelpOf, HasAnExampleOfTheCommand) {
   EXPECT_TRUE(contains(got.out, "Example:\n  rinkaku " + command + " ")) << got.out;
   EXPECT_TRUE(contains(got.out, "--json")) << got.out;
 }
-INSTANTIATE_TEST_SUITE_P(Commands, HelpOf, testing::Values("render", "explain", "inspect", "board", "calibrate"));
+INSTANTIATE_TEST_SUITE_P(Commands, HelpOf,
+                         testing::Values("render", "explain", "inspect", "board", "calibrate", "curvature"));
 
 TEST(Cli, HelpListsTheCommands) {
   const test::ShotFolder folder;
   const test::CliResult got = test::run_rinkaku(folder, "--help");
   EXPECT_EQ(got.status, 0);
-  for (const char* command : {"render", "explain", "inspect", "board", "calibrate"}) {
+  for (const char* command : {"render", "explain", "inspect", "board", "calibrate", "curvature"}) {
     EXPECT_TRUE(contains(got.out, std::string("  ") + command)) << command;
   }
 }

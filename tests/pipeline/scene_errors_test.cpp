@@ -52,9 +52,10 @@ INSTANTIATE_TEST_SUITE_P(
                  "DIR/scene.toml:8:1: unknown key 'mehs' in [[object]]; did you mean 'mesh'?"},
         BadScene{"OtherCase", object + "Toon = true\n",
                  "DIR/scene.toml:8:1: unknown key 'Toon' in [[object]]; did you mean 'toon'?"},
-        BadScene{"LookOfAHoldout", object + "holdout = true\noutline = true\n",
-                 "DIR/scene.toml:9:1: 'outline' in [[object]] has no meaning for a holdout, which is not drawn; leave it "
-                 "out"},
+        BadScene{
+            "LookOfAHoldout", object + "holdout = true\noutline = true\n",
+            "DIR/scene.toml:9:11: 'outline' in [[object]] has no meaning for a holdout, which is not drawn; leave it "
+            "out"},
         BadScene{"UnitLeftOut", object + "height = 1\n",
                  "DIR/scene.toml:8:1: unknown key 'height' in [[object]]; did you mean 'height_m'?"},
         BadScene{"KeyOfAnotherTable", object + "camera = \"camera.yml\"\n",
@@ -70,7 +71,7 @@ INSTANTIATE_TEST_SUITE_P(
                  "DIR/scene.toml:9:1: unknown key 'width' in outline of [[object]]; did you mean 'width_px'?"},
         BadScene{"NothingNear", object + "regions = \"cow.rgn\"\n",
                  "DIR/scene.toml:8:1: unknown key 'regions' in [[object]]; known keys are anchor, colour, crease_deg, "
-                 "height_m, mesh, name, outline, position_m, rotation_deg, scale, toon and up"},
+                 "height_m, holdout, mesh, name, outline, position_m, rotation_deg, scale, toon and up"},
         BadScene{"TableOfALaterVersion", object + "[water]\n",
                  "DIR/scene.toml:8:2: unknown key 'water'; known keys are light, object, output, plate and track"},
         BadScene{"TablesOfALaterVersion", object + "[[foreground]]\nname = \"x\"\n",
