@@ -8,7 +8,6 @@
 #include <glm/matrix.hpp>
 
 #include "mesh/bounds.h"
-#include "mesh/levels.h"
 
 namespace rinkaku::passes {
 namespace {
@@ -50,13 +49,14 @@ ObjectShape::ObjectShape(const mesh::Mesh& mesh, const glm::dmat4& world_from_ob
   collect_vertices(mesh, topology);
   strips_.emplace(mesh, topology, two_sided_);
   borders_.emplace(mesh, topology, vertices_, world_from_object);
-  levels_.push_back({0, mesh::ContourFinder(mesh, topology), false});
-  mesh::Mesh coarse = mesh;
-  for (mesh::Level& level : mesh::levels(mesh, uneven)) {
-    coarse.triangles = std::move(level.triangles);
-    coarse.parts = std::move(level.parts);
-    levels_.push_back({level.error, mesh::ContourFinder(coarse, mesh::topology(coarse)), true});
-  }
+  whole_.emplace(mesh, topology);
+  levels_.emplace(mesh, uneven);
+  level_finders_.resize(levels_->count());
+  if (levels_->count() == 0) return;
+  outlook_.positions = mesh.positions;
+  outlook_.welded = mesh.welded;
+  outlook_.point_count = mesh.point_count;
+  outlook_.materials = mesh.materials;
 }
 
 void ObjectShape::collect_vertices(const mesh::Mesh& mesh, const mesh::Topology& topology) {
@@ -95,13 +95,13 @@ const Look& ObjectShape::look(const View& view, const PixelRect& picture) {
   const RigidTransform world_from_camera = inverse(view.camera_from_world);
   look_.distance_m = glm::length(centre_ - world_from_camera.translation_m);
   const glm::dvec3 eye = glm::dvec3(object_from_world_ * glm::dvec4(world_from_camera.translation_m, 1.0));
-  Level& level = level_for(view);
-  const bool whole = &level == &levels_.front();
-  const mesh::Contour& contour = levels_.front().finder.find(eye, {.front = whole, .edges = true});
+  const std::size_t level = level_for(view);
+  const bool whole = level == 0;
+  const mesh::Contour& contour = whole_->find(eye, {.front = whole, .edges = true});
   if (whole) {
-    list_front(level, contour);
+    list_front(contour, false);
   } else {
-    list_front(level, level.finder.find(eye, {.front = true, .edges = false}));
+    list_front(level_finder(level - 1).find(eye, {.front = true, .edges = false}), true);
     // The level's error is of the kind of a mean, so allow for more.
     look_.overlap_px = 1.5f;
   }
@@ -115,24 +115,36 @@ const Look& ObjectShape::look(const View& view, const PixelRect& picture) {
   return look_;
 }
 
-ObjectShape::Level& ObjectShape::level_for(const View& view) {
+// 0 for the whole mesh, else the level's number and 1.
+std::size_t ObjectShape::level_for(const View& view) const {
   // What changes in colour stays as it is and the contour is exact, so this shows only where the object hides itself.
   constexpr double most_px = 1.0;
-  if (look_.crosses_eye_plane) return levels_.front();
+  if (look_.crosses_eye_plane) return 0;
   // The most that one of the mesh's units takes, along the axis that is stretched most.
   const double px_per_unit = view.camera.fx_px * largest_scale_ / nearest_m_;
   std::size_t level = 0;
-  while (level + 1 < levels_.size() && levels_[level + 1].error * px_per_unit <= most_px) ++level;
-  return levels_[level];
+  while (level < levels_->count() && levels_->most_error(level) * px_per_unit <= most_px) ++level;
+  return level;
 }
 
-void ObjectShape::list_front(const Level& level, const mesh::Contour& found) {
+mesh::ContourFinder& ObjectShape::level_finder(std::size_t level) {
+  std::optional<mesh::ContourFinder>& finder = level_finders_[level];
+  if (!finder) {
+    mesh::Level made = levels_->make(level);
+    outlook_.triangles = std::move(made.triangles);
+    outlook_.parts = std::move(made.parts);
+    finder.emplace(outlook_, mesh::topology(outlook_));
+  }
+  return *finder;
+}
+
+void ObjectShape::list_front(const mesh::Contour& found, bool split) {
   look_.front = found.front_indices;
   front_runs_.clear();
   for (std::uint32_t p = 0; p < found.front_parts.size(); ++p) {
     const mesh::IndexRange& range = found.front_parts[p];
     if (range.count == 0) continue;
-    front_runs_.push_back({level.split ? p / 2 : p, range.first, range.count, level.split && p % 2 == 1});
+    front_runs_.push_back({split ? p / 2 : p, range.first, range.count, split && p % 2 == 1});
   }
   look_.front_runs = front_runs_;
 }
