@@ -33,7 +33,7 @@ struct Leaf {
 struct Node {
   Bounds bounds;
   std::uint32_t first = 0, count = 0;
-  std::uint32_t right = 0;         // 0: no children
+  std::uint32_t right = 0;          // 0: no children
   std::uint32_t component = kNone;  // of all its faces; kNone if they differ
 };
 

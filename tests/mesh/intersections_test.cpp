@@ -134,9 +134,7 @@ TEST(Intersections, ACubeCutsASquareAlongItsSides) {
   }
 }
 
-TEST(Intersections, OnePieceHasNone) {
-  EXPECT_TRUE(intersections(topology_of({sphere(3)})).empty());
-}
+TEST(Intersections, OnePieceHasNone) { EXPECT_TRUE(intersections(topology_of({sphere(3)})).empty()); }
 
 TEST(Intersections, PiecesThatOnlyTouchHaveNone) {
   EXPECT_TRUE(intersections(topology_of({cube(), placed(cube(), moved(2, 0.5f, 0.25f))})).empty()) << "side by side";
