@@ -36,7 +36,7 @@ struct Contour {
   std::span<const std::uint32_t>
       front_indices;                        ///< vertices, three a triangle: front faces, doubtful and two-sided ones
   std::span<const IndexRange> front_parts;  ///< per part of the mesh: its run within front_indices
-  std::span<const std::uint32_t> edges;         ///< the contour, as indices into Topology::edges
+  std::span<const std::uint32_t> edges;     ///< the contour, as indices into Topology::edges
 };
 
 /// Finds which faces an eye sees from the front and where the contour runs.

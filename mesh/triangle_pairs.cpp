@@ -74,7 +74,6 @@ class Tree {
       if (leaf.component != node.component) node.component = kNone;
     }
     nodes_.push_back(node);
-    // What is of one component is only met from outside, so it needs to be cut up all the same.
     if (count <= most_in_leaf) return at;
     const glm::vec3 extent = centres.max - centres.min;
     const int axis = extent.x >= extent.y && extent.x >= extent.z ? 0 : extent.y >= extent.z ? 1 : 2;

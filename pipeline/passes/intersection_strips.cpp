@@ -27,8 +27,8 @@ glm::dvec3 inset(const glm::dvec2& focal_px, const glm::dvec3& position, const g
   return {way_px * position.z / focal_px, 0.0};
 }
 
-// The way from a point of two planes' line to the line that they share once each has moved by its
-// offset along its normal.
+// The way from a point of two planes' line to the line that they share once each has moved by its offset along its
+// normal.
 glm::dvec3 way_to_moved_line(const std::array<glm::dvec3, 2>& normals, const std::array<double, 2>& offset) {
   const double cosine = glm::dot(normals[0], normals[1]);
   const double sine2 = 1 - cosine * cosine;
@@ -58,29 +58,6 @@ struct IntersectionStrips::Eye {
   glm::dvec2 focal_px;
 };
 
-// A face as it is drawn: all in the camera's frame.
-struct IntersectionStrips::DrawnSide {
-  DrawnSide() = default;
-  DrawnSide(const Eye& eye, const Side& side) {
-    std::array<glm::dvec3, 3> corners, insets;
-    for (int k = 0; k < 3; ++k) {
-      corners[k] = eye.camera_from_world * side.corners_m[k] + eye.translation_m;
-      if (!(corners[k].z > near_m)) return;
-      insets[k] = inset(eye.focal_px, corners[k], eye.camera_from_world * side.outline_normals[k]);
-      corners[k] += insets[k];
-    }
-    before_eye = true;
-    normal = unit(glm::cross(corners[1] - corners[0], corners[2] - corners[0]));
-    for (int end : {0, 1}) {
-      const glm::dvec3& w = side.weights[end];
-      offset[end] = glm::dot(normal, w.x * insets[0] + w.y * insets[1] + w.z * insets[2]);
-    }
-  }
-  bool before_eye = false;         // all of it
-  glm::dvec3 normal{0};            // unit, to either side
-  std::array<double, 2> offset{};  // along it, at the cut's ends, from where the face is
-};
-
 IntersectionStrips::IntersectionStrips(const mesh::Mesh& mesh, const mesh::Topology& topology,
                                        std::span<const mesh::Cut> cuts, const glm::dmat4& world_from_object)
     : object_from_world_(glm::inverse(world_from_object)) {
@@ -89,11 +66,26 @@ IntersectionStrips::IntersectionStrips(const mesh::Mesh& mesh, const mesh::Topol
   for (std::uint32_t p = 0; p < mesh.parts.size(); ++p) {
     std::fill_n(part_of.begin() + mesh.parts[p].first_triangle, mesh.parts[p].triangle_count, p);
   }
+  const glm::dmat3 world_from_normal = glm::transpose(glm::dmat3(object_from_world_));
+  std::vector<std::uint32_t> number_of(topology.points.size(), mesh::kNone);
+  const auto number = [&](std::uint32_t point) {
+    if (number_of[point] == mesh::kNone) {
+      number_of[point] = static_cast<std::uint32_t>(points_.size());
+      points_.push_back({glm::dvec3(world_from_object * glm::dvec4(topology.points[point], 1)),
+                         unit(world_from_normal * glm::dvec3(topology.outline_normals[point]))});
+    }
+    return number_of[point];
+  };
   for (const mesh::Cut& cut : cuts) {
     TwoFaces two;
     for (int side : {0, 1}) {
-      two.sides[side] = side_at(topology, cut, side, world_from_object);
-      two.sides[side].two_sided |= mesh.materials[mesh.parts[part_of[cut.faces[side]]].material].two_sided;
+      Side& out = two.sides[side];
+      out.face = cut.faces[side];
+      out.two_sided = topology.component_two_sided[topology.component[out.face]] != 0 ||
+                      mesh.materials[mesh.parts[part_of[out.face]].material].two_sided;
+      out.normal = unit(world_from_normal * glm::dvec3(topology.face_normals[out.face]));
+      for (int k = 0; k < 3; ++k) out.corners[k] = number(topology.faces[out.face][k]);
+      out.weights = cut.weights[side];
     }
     for (int end : {0, 1}) two.ends_m[end] = glm::dvec3(world_from_object * glm::dvec4(cut.ends[end], 1));
     two.across = across(two, 0);
@@ -101,26 +93,11 @@ IntersectionStrips::IntersectionStrips(const mesh::Mesh& mesh, const mesh::Topol
     for (int of : {0, 1}) add_quad(mesh, cut, of, part_of[cut.faces[of]]);
   }
   std::stable_sort(quads_.begin(), quads_.end(), [](const Quad& a, const Quad& b) { return a.part < b.part; });
+  drawn_points_.resize(points_.size());
   placed_.resize(cuts_.size());
   vertices_.reserve(quads_.size() * 4);
   indices_.reserve(quads_.size() * 6);
   runs_.reserve(mesh.parts.size());
-}
-
-IntersectionStrips::Side IntersectionStrips::side_at(const mesh::Topology& topology, const mesh::Cut& cut, int side,
-                                                     const glm::dmat4& world_from_object) const {
-  const glm::dmat3 world_from_normal = glm::transpose(glm::dmat3(object_from_world_));
-  Side out;
-  out.face = cut.faces[side];
-  out.two_sided = topology.component_two_sided[topology.component[out.face]] != 0;
-  out.normal = unit(world_from_normal * glm::dvec3(topology.face_normals[out.face]));
-  for (int k = 0; k < 3; ++k) {
-    const std::uint32_t point = topology.faces[out.face][k];
-    out.corners_m[k] = glm::dvec3(world_from_object * glm::dvec4(topology.points[point], 1));
-    out.outline_normals[k] = unit(world_from_normal * glm::dvec3(topology.outline_normals[point]));
-  }
-  out.weights = cut.weights[side];
-  return out;
 }
 
 // In the plane of the other face, at right angles to the line, to the outer side of this one.
@@ -146,6 +123,11 @@ void IntersectionStrips::collect(const mesh::Contour& contour, const View& view)
   const glm::dmat3 camera_from_world = glm::mat3_cast(view.camera_from_world.rotation);
   const Eye eye{camera_from_world, glm::transpose(camera_from_world), view.camera_from_world.translation_m,
                 glm::dvec2(view.camera.fx_px, view.camera.fy_px)};
+  for (std::size_t p = 0; p < points_.size(); ++p) {
+    const glm::dvec3 position = camera_from_world * points_[p].position_m + eye.translation_m;
+    const glm::dvec3 way = inset(eye.focal_px, position, camera_from_world * points_[p].outline_normal);
+    drawn_points_[p] = {position + way, way};
+  }
   for (std::size_t c = 0; c < cuts_.size(); ++c) {
     const TwoFaces& two = cuts_[c];
     const bool front[] = {contour.front[two.sides[0].face] != 0, contour.front[two.sides[1].face] != 0};
@@ -159,20 +141,31 @@ void IntersectionStrips::collect(const mesh::Contour& contour, const View& view)
 }
 
 void IntersectionStrips::place(const TwoFaces& two, const Eye& eye, bool first_from_behind, Placed& placed) const {
-  std::array<DrawnSide, 2> drawn;
+  std::array<glm::dvec3, 2> normals;            // of the planes as they are drawn, in the camera's frame
+  std::array<std::array<double, 2>, 2> offset;  // of the ends and then of the planes: along the normals
   for (int side : {0, 1}) {
-    drawn[side] = DrawnSide(eye, two.sides[side]);
-    if (!drawn[side].before_eye) {
-      placed.seen = false;
-      return;
+    const Side& s = two.sides[side];
+    const std::array<DrawnPoint, 3> corners{drawn_points_[s.corners.x], drawn_points_[s.corners.y],
+                                            drawn_points_[s.corners.z]};
+    for (const DrawnPoint& corner : corners) {
+      if (!(corner.position_m.z > near_m)) {
+        placed.seen = false;
+        return;
+      }
+    }
+    normals[side] =
+        unit(glm::cross(corners[1].position_m - corners[0].position_m, corners[2].position_m - corners[0].position_m));
+    for (int end : {0, 1}) {
+      const glm::dvec3& w = s.weights[end];
+      const glm::dvec3 way = w.x * corners[0].way_m + w.y * corners[1].way_m + w.z * corners[2].way_m;
+      offset[end][side] = glm::dot(normals[side], way);
     }
   }
   const glm::dvec3 line = eye.camera_from_world * (two.ends_m[1] - two.ends_m[0]);
   const glm::dvec3 across = eye.camera_from_world * (first_from_behind ? -two.across : two.across);
   for (int end : {0, 1}) {
     const glm::dvec3 position = eye.camera_from_world * two.ends_m[end] + eye.translation_m;
-    const glm::dvec3 way =
-        way_to_moved_line({drawn[0].normal, drawn[1].normal}, {drawn[0].offset[end], drawn[1].offset[end]});
+    const glm::dvec3 way = way_to_moved_line(normals, offset[end]);
     placed.ends[end] = glm::vec3(object_from_world_ * glm::dvec4(two.ends_m[end] + eye.world_from_camera * way, 1));
     // At right angles to the line in the picture, over the second face.
     const glm::dvec2 seen_line = seen_way_px(eye.focal_px, position, line);
@@ -180,6 +173,12 @@ void IntersectionStrips::place(const TwoFaces& two, const Eye& eye, bool first_f
     if (glm::dot(aside, seen_way_px(eye.focal_px, position, across)) < 0) aside = -aside;
     const double length = glm::length(aside);
     const double moved_px = length > 0 ? glm::dot(aside, seen_way_px(eye.focal_px, position, way)) / length : 0;
+    // Faces that are nearly one plane may, drawn smaller, meet far away from where they end.
+    constexpr double most_px = 1;
+    if (!(std::abs(moved_px) < most_px)) {
+      placed.seen = false;
+      return;
+    }
     const double first_reach = std::clamp(0.5 - moved_px, 0.0, 1.0);
     placed.reach[0][end] = static_cast<std::int16_t>(std::lround(first_reach * 32767));
     placed.reach[1][end] = static_cast<std::int16_t>(32767 - placed.reach[0][end]);

@@ -71,7 +71,9 @@ TEST_F(Intersection, OfCrossingSquaresMixesTheColoursByTheirCoverage) {
         }
         const Layer layer = drawn(scene_of(toon(mesh, moved(0, 0, 2))), v);
         const Row row = row_of(layer, 32, 26, 38);
-        // From 25.5 to 37.5 px; the line is seen at 31.5 + shift.
+        // From 25.5 to 37.5 px; the line is seen at 31.5 + shift. Where surfaces are drawn displaced, the depth test
+        // picks another pixel than the true line would, and rounding to 1/256 pixel makes a few hundredths of
+        // difference.
         EXPECT_NEAR(row.white_px, 6 - shift_px, 0.1)
             << angle_black << " " << angle_white << " " << behind << " " << shift_px;
         EXPECT_LE(row.between, 2);
