@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <numeric>
 #include <utility>
 
@@ -14,11 +13,6 @@ namespace {
 
 bool look_alike(const mesh::Material& a, const mesh::Material& b) {
   return a.base_colour == b.base_colour && a.texture == b.texture && a.alpha == b.alpha;
-}
-
-std::array<std::int16_t, 4> snorm(const glm::dvec3& v) {
-  auto code = [](double f) { return static_cast<std::int16_t>(std::lround(std::clamp(f, -1.0, 1.0) * 32767.0)); };
-  return {code(v.x), code(v.y), code(v.z), 0};
 }
 
 // In the object's coordinates, of length 1: in the triangle's plane, at right angles to the edge in the world, away
@@ -60,8 +54,8 @@ BorderStrips::BorderStrips(const mesh::Mesh& mesh, const mesh::Topology& topolog
   std::stable_sort(borders.begin(), borders.end(), [](const Border& a, const Border& b) { return a.part < b.part; });
   for (const Border& border : borders) {
     const mesh::Edge& edge = topology.edges[border.edge];
-    const std::array<std::int16_t, 4> direction =
-        snorm(across(topology, edge, border.over, glm::dmat3(world_from_object)));
+    std::array<std::int16_t, 4> direction = snorm(across(topology, edge, border.over, glm::dmat3(world_from_object)));
+    direction[3] = 32767 / 2;  // half a pixel over either side
     for (std::int16_t rim : {0, 32767}) {
       for (std::uint32_t point : {edge.a, edge.b}) {
         BorderVertex v{vertices[mesh::corner_at(mesh, border.of, point)], direction};

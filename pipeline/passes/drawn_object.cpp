@@ -10,11 +10,9 @@ DrawnObject::DrawnObject(ObjectShape shape)
     : shape_(std::move(shape)), mesh_array_(make_vertex_array()), contour_array_(make_vertex_array()) {
   vertex_buffer_ = gl::StaticBuffer(std::as_bytes(shape_.vertices()));
   glVertexArrayVertexBuffer(mesh_array_.name(), 0, vertex_buffer_.name(), 0, sizeof(ShapeVertex));
+  if (shape_.intersects_itself()) intersection_array_ = make_border_array();
   if (shape_.border_vertices().empty()) return;
-  border_array_ = make_vertex_array();
-  glEnableVertexArrayAttrib(border_array_.name(), 5);
-  glVertexArrayAttribFormat(border_array_.name(), 5, 3, GL_SHORT, GL_TRUE, offsetof(BorderVertex, across));
-  glVertexArrayAttribBinding(border_array_.name(), 5, 0);
+  border_array_ = make_border_array();
   border_buffer_ = gl::StaticBuffer(std::as_bytes(shape_.border_vertices()));
   glVertexArrayVertexBuffer(border_array_.name(), 0, border_buffer_.name(), 0, sizeof(BorderVertex));
 }
@@ -35,6 +33,14 @@ gl::VertexArrayHandle DrawnObject::make_vertex_array() {
   return gl::VertexArrayHandle(name);
 }
 
+gl::VertexArrayHandle DrawnObject::make_border_array() {
+  gl::VertexArrayHandle array = make_vertex_array();
+  glEnableVertexArrayAttrib(array.name(), 5);
+  glVertexArrayAttribFormat(array.name(), 5, 4, GL_SHORT, GL_TRUE, offsetof(BorderVertex, across));
+  glVertexArrayAttribBinding(array.name(), 5, 0);
+  return array;
+}
+
 void DrawnObject::upload() {
   const Look& look = shape_.last_look();
   front_buffer_.write(std::as_bytes(look.front));
@@ -43,9 +49,16 @@ void DrawnObject::upload() {
   glVertexArrayElementBuffer(mesh_array_.name(), front_buffer_.name());
   glVertexArrayElementBuffer(contour_array_.name(), strip_index_buffer_.name());
   glVertexArrayVertexBuffer(contour_array_.name(), 0, strip_buffer_.name(), 0, sizeof(ShapeVertex));
-  if (look.border_indices.empty()) return;
-  border_index_buffer_.write(std::as_bytes(look.border_indices));
-  glVertexArrayElementBuffer(border_array_.name(), border_index_buffer_.name());
+  if (!look.border_indices.empty()) {
+    border_index_buffer_.write(std::as_bytes(look.border_indices));
+    glVertexArrayElementBuffer(border_array_.name(), border_index_buffer_.name());
+  }
+  if (!look.intersection_indices.empty()) {
+    intersection_buffer_.write(std::as_bytes(look.intersection_vertices));
+    intersection_index_buffer_.write(std::as_bytes(look.intersection_indices));
+    glVertexArrayElementBuffer(intersection_array_.name(), intersection_index_buffer_.name());
+    glVertexArrayVertexBuffer(intersection_array_.name(), 0, intersection_buffer_.name(), 0, sizeof(BorderVertex));
+  }
 }
 
 std::span<const Run> DrawnObject::bind_front() {
@@ -63,6 +76,12 @@ std::span<const Run> DrawnObject::bind_borders() {
   if (shape_.last_look().border_runs.empty()) return {};
   glBindVertexArray(border_array_.name());
   return shape_.last_look().border_runs;
+}
+
+std::span<const Run> DrawnObject::bind_intersections() {
+  if (shape_.last_look().intersection_runs.empty()) return {};
+  glBindVertexArray(intersection_array_.name());
+  return shape_.last_look().intersection_runs;
 }
 
 void draw_run(const Run& run) {

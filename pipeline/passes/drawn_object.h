@@ -25,9 +25,12 @@ class DrawnObject {
   std::span<const Run> bind_contour();
   /// Binds the quads along borders between materials (see BorderStrips).
   std::span<const Run> bind_borders();
+  /// Binds the quads along intersections (see IntersectionStrips).
+  std::span<const Run> bind_intersections();
 
  private:
   static gl::VertexArrayHandle make_vertex_array();
+  static gl::VertexArrayHandle make_border_array();
 
   ObjectShape shape_;
   gl::StaticBuffer vertex_buffer_;
@@ -39,6 +42,9 @@ class DrawnObject {
   gl::StreamBuffer border_index_buffer_;
   gl::VertexArrayHandle contour_array_;
   gl::VertexArrayHandle border_array_;
+  gl::StreamBuffer intersection_buffer_;
+  gl::StreamBuffer intersection_index_buffer_;
+  gl::VertexArrayHandle intersection_array_;
 };
 
 /// Draws a run of what is bound.

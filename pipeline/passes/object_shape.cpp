@@ -1,26 +1,16 @@
 #include "pipeline/passes/object_shape.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
 #include "mesh/bounds.h"
+#include "mesh/intersections.h"
 
 namespace rinkaku::passes {
 namespace {
-
-std::array<std::int16_t, 4> snorm(const glm::vec3& v) {
-  auto code = [](float f) { return static_cast<std::int16_t>(std::lround(std::clamp(f, -1.0f, 1.0f) * 32767.0f)); };
-  return {code(v.x), code(v.y), code(v.z), 0};
-}
-
-std::array<std::uint8_t, 4> unorm(const glm::vec4& v) {
-  auto code = [](float f) { return static_cast<std::uint8_t>(std::lround(std::clamp(f, 0.0f, 1.0f) * 255.0f)); };
-  return {code(v.x), code(v.y), code(v.z), code(v.w)};
-}
 
 // Takes a position to (x Z, y Z, Z, Z), x and y in pixels of the pinhole picture. Composed in double, rounded once.
 glm::mat4 pixels_from_object(const View& view, const glm::dmat4& world_from_object) {
@@ -29,6 +19,17 @@ glm::mat4 pixels_from_object(const View& view, const glm::dmat4& world_from_obje
   const glm::dvec4 depth = rows[2];
   return glm::mat4(glm::transpose(glm::dmat4(camera.fx_px * rows[0] + camera.cx_px * depth,
                                              camera.fy_px * rows[1] + camera.cy_px * depth, depth, depth)));
+}
+
+// What levels of detail must keep: uneven triangles, and those that cut each other, so that the line they meet in stays
+// where it is.
+std::vector<std::uint8_t> kept(std::span<const std::uint8_t> uneven, std::span<const mesh::Cut> cuts,
+                               std::size_t triangles) {
+  std::vector<std::uint8_t> mask(uneven.begin(), uneven.end());
+  if (cuts.empty()) return mask;
+  mask.resize(triangles);
+  for (const mesh::Cut& cut : cuts) mask[cut.faces[0]] = mask[cut.faces[1]] = 1;
+  return mask;
 }
 
 }  // namespace
@@ -49,8 +50,10 @@ ObjectShape::ObjectShape(const mesh::Mesh& mesh, const glm::dmat4& world_from_ob
   collect_vertices(mesh, topology);
   strips_.emplace(mesh, topology, two_sided_);
   borders_.emplace(mesh, topology, vertices_, world_from_object);
+  const std::vector<mesh::Cut> cuts = mesh::intersections(topology);
+  intersections_.emplace(mesh, topology, cuts, world_from_object);
   whole_.emplace(mesh, topology);
-  levels_.emplace(mesh, uneven);
+  levels_.emplace(mesh, kept(uneven, cuts, mesh.triangles.size()));
   level_finders_.resize(levels_->count());
   if (levels_->count() == 0) return;
   outlook_.positions = mesh.positions;
@@ -76,7 +79,7 @@ void ObjectShape::collect_vertices(const mesh::Mesh& mesh, const mesh::Topology&
     ShapeVertex& out = vertices_[v];
     out.position = mesh.positions[v];
     out.normal = snorm(mesh.normals[v]);
-    out.outline_normal = snorm(glm::vec3(push[mesh.welded[v]] * push_m_));
+    out.outline_normal = snorm(push[mesh.welded[v]] * push_m_);
     out.uv = mesh.uvs.empty() ? glm::vec2(0) : mesh.uvs[v];
     out.colour = unorm(mesh.colours.empty() ? glm::vec4(1) : mesh.colours[v]);
   }
@@ -112,6 +115,10 @@ const Look& ObjectShape::look(const View& view, const PixelRect& picture) {
   borders_->collect(contour);
   look_.border_indices = borders_->indices();
   look_.border_runs = borders_->runs();
+  intersections_->collect(contour, view);
+  look_.intersection_vertices = intersections_->vertices();
+  look_.intersection_indices = intersections_->indices();
+  look_.intersection_runs = intersections_->runs();
   return look_;
 }
 

@@ -14,6 +14,7 @@
 #include "mesh/topology.h"
 #include "pipeline/passes/border_strips.h"
 #include "pipeline/passes/contour_strips.h"
+#include "pipeline/passes/intersection_strips.h"
 #include "pipeline/passes/shape_vertex.h"
 #include "pipeline/passes/view.h"
 
@@ -35,6 +36,9 @@ struct Look {
   std::span<const Run> strip_runs;
   std::span<const std::uint32_t> border_indices;  ///< of border_vertices(), see BorderStrips
   std::span<const Run> border_runs;
+  std::span<const BorderVertex> intersection_vertices;  ///< see IntersectionStrips
+  std::span<const std::uint32_t> intersection_indices;
+  std::span<const Run> intersection_runs;
 };
 
 /// An object of the scene as it stands in the world, and each frame which triangles face the eye and where the contour
@@ -57,6 +61,7 @@ class ObjectShape {
   std::span<const ShapeVertex> vertices() const { return vertices_; }
   /// Of the borders between materials; empty if there are none.
   std::span<const BorderVertex> border_vertices() const { return borders_->vertices(); }
+  bool intersects_itself() const { return !intersections_->empty(); }
   const glm::dmat4& world_from_object() const { return world_from_object_; }
   /// Unit normals in the world are normalize(this * normal).
   const glm::mat3& world_from_normal() const { return world_from_normal_; }
@@ -88,8 +93,8 @@ class ObjectShape {
   std::optional<mesh::Levels> levels_;
   std::vector<std::optional<mesh::ContourFinder>> level_finders_;  // made when first needed
   std::optional<ContourStrips> strips_;  // made once it is known whether the object is two-sided
-
   std::optional<BorderStrips> borders_;
+  std::optional<IntersectionStrips> intersections_;
 
   double nearest_m_ = 0;
   std::vector<Run> front_runs_;

@@ -16,9 +16,6 @@ struct DrawCall {
   float focal_px = 0;  ///< pixels that an outline normal of length 1 takes at a distance of 1 m
 };
 
-/// Half the width of a feather, in pixels. Surfaces are pulled in by as much.
-inline constexpr float feather_px = 0.5f;
-
 /// One way of drawing an object: its shading, its outline, ... An object has a list of them.
 ///
 /// Edges are smoothed without multisampling: each pass draws its surface pulled in by half a pixel, and then, after all

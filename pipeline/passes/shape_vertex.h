@@ -5,8 +5,13 @@
 
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
 
 namespace rinkaku::passes {
+
+/// Surfaces are drawn smaller by this at the contour, and by less where they don't stand on edge: see pushed() in
+/// screen_offset.glsl. A feather reaches as far outwards.
+inline constexpr float feather_px = 0.5f;
 
 /// A vertex as the passes' shaders read it, at the attribute locations 0 to 4.
 struct ShapeVertex {
@@ -17,11 +22,17 @@ struct ShapeVertex {
   std::array<std::uint8_t, 4> colour{};  ///< unorm, sRGB-encoded
 };
 
+/// Numbers from -1 to 1 as the vertices hold them; the fourth is 0.
+std::array<std::int16_t, 4> snorm(const glm::dvec3& v);
+/// Numbers from 0 to 1 likewise.
+std::array<std::uint8_t, 4> unorm(const glm::vec4& v);
+
 /// A vertex of a strip that lies on a surface, at the locations 0 to 5.
 struct BorderVertex {
   ShapeVertex shape;  ///< of the part whose colour the strip has
-  std::array<std::int16_t, 4>
-      across{};  ///< snorm; the direction in which the rim is moved, in the object's coordinates
+  /// snorm; the direction in which the rim is moved, in the object's coordinates, and by how many pixels. That is also
+  /// the coverage at the edge.
+  std::array<std::int16_t, 4> across{};
 };
 
 /// Triangles of one part of the mesh within an index list.

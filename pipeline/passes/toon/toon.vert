@@ -9,7 +9,7 @@ layout(location = 4) in vec4 colour;
 #endif
 
 #ifdef BORDER
-layout(location = 5) in vec3 across;
+layout(location = 5) in vec4 across;  // and how far, in pixels
 #endif
 
 uniform mat3 world_from_normal;
@@ -43,9 +43,10 @@ void main() {
   vec4 clip = clip_from_object * vec4(position, 1.0);
 #ifdef BORDER
   bool rim = outline_normal.w > 0.5;
-  // From where the surface is drawn; half the colour at the edge, where the other part's quad begins with its half.
-  clip = moved(pushed(clip, outline_normal.xyz, offset_px.x, 1.0), across, rim ? 0.5 : 0.0);
-  coverage = rim ? 0.0 : 0.5;
+  // From where the surface is drawn. At the edge, where the other surface's quad begins with its share, coverage falls by
+  // 1 a pixel.
+  clip = moved(pushed(clip, outline_normal.xyz, offset_px.x, 1.0), across.xyz, rim ? across.w : 0.0);
+  coverage = rim ? 0.0 : across.w;
   clip.z *= 1.0003;  // before the triangle that it lies on. Depth is near / Z
 #elif defined(FEATHER)
   bool rim = outline_normal.w > 0.5;

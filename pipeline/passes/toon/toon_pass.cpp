@@ -52,6 +52,7 @@ ToonPass::ToonPass(DrawnObject& object, const mesh::Mesh& mesh, const ToonOption
   if (object.shape().two_sided()) common |= TwoSided;
   // Two-sided surfaces learn only in the fragment shader which side is seen.
   if ((common & Lit) != 0 && !object.shape().two_sided() && is_fine(mesh)) common |= Fine;
+  const bool has_borders = !object.shape().border_vertices().empty() || object.shape().intersects_itself();
   for (const mesh::Part& part : mesh.parts) {
     const mesh::Material& material = mesh.materials[part.material];
     unsigned features = common;
@@ -64,7 +65,7 @@ ToonPass::ToonPass(DrawnObject& object, const mesh::Mesh& mesh, const ToonOption
     const bool by_triangle = object.shape().has_levels() && (features & (Lit | TwoSided)) == Lit;
     style.even = by_triangle ? variant((features & ~Fine) | Even) : style.surface;
     style.feather = variant(features | Feather);
-    if (!object.shape().border_vertices().empty()) style.border = variant(features | Feather | Border);
+    if (has_borders) style.border = variant(features | Feather | Border);
     style.base_colour = material.base_colour;
     style.alpha_cutoff = material.alpha_cutoff;
     style.texture = material.texture;
@@ -134,6 +135,7 @@ void ToonPass::draw_surface(const DrawCall& call) { draw(call, object_.bind_fron
 
 void ToonPass::draw_edges(const DrawCall& call) {
   draw(call, object_.bind_borders(), Stage::Border);
+  draw(call, object_.bind_intersections(), Stage::Border);
   draw(call, object_.bind_contour(), Stage::Feather);
   const bool any = std::any_of(parts_.begin(), parts_.end(), [](const PartStyle& p) { return p.translucent; });
   if (any) draw(call, object_.bind_front(), Stage::Translucent);
