@@ -1,6 +1,7 @@
 #include "silhouette/region_lists.h"
 
 #include <algorithm>
+#include <array>
 #include <condition_variable>
 #include <exception>
 #include <mutex>
@@ -20,6 +21,9 @@ struct Slot {
   std::uint64_t last_use = 0;
   std::vector<std::uint32_t> indices;
 };
+
+/// The next regions on an eye's way, nearest first. Two, as a way may cut a region's corner within a frame.
+using Ahead = std::array<std::optional<std::uint32_t>, 2>;
 
 }  // namespace
 
@@ -43,8 +47,8 @@ struct RegionLists::State {
   std::vector<Slot> slots;
   std::size_t current = 0;  // the slot given out last, if any: never written over
   bool gave_out = false;
-  std::optional<std::uint32_t> wanted;    // to draw now
-  std::optional<std::uint32_t> expected;  // to draw soon
+  std::optional<std::uint32_t> wanted;  // to draw now
+  Ahead expected;                       // to draw soon
   std::uint64_t serials = 0;
   std::exception_ptr failure;
   std::jthread decoder;  // the last: it ends first
@@ -55,7 +59,8 @@ struct RegionLists::State {
   Slot* slot_of(std::uint32_t region);
   Slot& slot_to_write();
   std::optional<std::uint32_t> next_job();
-  std::optional<std::uint32_t> region_ahead(const glm::dvec3& eye, std::uint32_t region) const;
+  Ahead regions_ahead(const glm::dvec3& eye, std::uint32_t region) const;
+  bool expect(const Ahead& ahead);
 };
 
 void RegionLists::State::reserve() {
@@ -63,7 +68,7 @@ void RegionLists::State::reserve() {
   for (std::uint32_t r = 0; r < file->regions(); ++r) {
     most = std::max<std::size_t>(most, file->triangles(r, options.product));
   }
-  slots.resize(static_cast<std::size_t>(std::max(options.kept, 3)));
+  slots.resize(static_cast<std::size_t>(std::max(options.kept, 4)));
   for (Slot& slot : slots) slot.indices.reserve(most * 3);
 }
 
@@ -90,13 +95,13 @@ Slot& RegionLists::State::slot_to_write() {
     if (slot.holds == Slot::Holds::Nothing) return slot;
     if (oldest == nullptr || slot.last_use < oldest->last_use) oldest = &slot;
   }
-  return *oldest;  // there are at least two besides the current one, and nothing is being decoded now
+  return *oldest;  // there are three at least besides the current one, and nothing is being decoded now
 }
 
 /// The region to decode now; forgets requests that are answered already.
 std::optional<std::uint32_t> RegionLists::State::next_job() {
   if (failure) return std::nullopt;
-  for (auto* request : {&wanted, &expected}) {
+  for (auto* request : {&wanted, &expected[0], &expected[1]}) {
     if (!*request) continue;
     const std::uint32_t region = **request;
     request->reset();
@@ -111,7 +116,7 @@ void RegionLists::State::run(const std::stop_token& stop) {
     const auto region = next_job();
     if (!region) {
       answered.notify_all();
-      if (!asked.wait(lock, stop, [&] { return (wanted || expected) && !failure; })) return;
+      if (!asked.wait(lock, stop, [&] { return (wanted || expected[0] || expected[1]) && !failure; })) return;
       continue;
     }
     Slot& slot = slot_to_write();
@@ -133,15 +138,31 @@ void RegionLists::State::run(const std::stop_token& stop) {
   }
 }
 
-/// The region an eye comes to next, if it goes on as from the last frame to this one.
-std::optional<std::uint32_t> RegionLists::State::region_ahead(const glm::dvec3& eye, std::uint32_t region) const {
-  if (!last_eye || *last_eye == eye) return std::nullopt;
+/// The regions an eye comes to next, if it goes on as from the last frame to this one.
+Ahead RegionLists::State::regions_ahead(const glm::dvec3& eye, std::uint32_t region) const {
+  Ahead out;
+  if (!last_eye || *last_eye == eye) return out;
   const glm::dvec3 step = eye - *last_eye;
-  for (const double frames : {2.0, 4.0, 8.0, 16.0, 32.0}) {
+  for (const double frames : {1.0, 2.0, 3.0, 4.0, 6.0, 8.0, 12.0, 16.0, 24.0, 32.0}) {
     const auto there = finder.find(eye + step * frames);
-    if (there && *there != region) return there;
+    if (!there || *there == region || there == out[0]) continue;
+    if (out[0]) {
+      out[1] = there;
+      return out;
+    }
+    out[0] = there;
   }
-  return std::nullopt;
+  return out;
+}
+
+/// Asks for the regions ahead that are missing; false if none is.
+bool RegionLists::State::expect(const Ahead& ahead) {
+  bool missing = false;
+  for (std::size_t i = 0; i < ahead.size(); ++i) {
+    expected[i] = ahead[i] && slot_of(*ahead[i]) == nullptr ? ahead[i] : std::nullopt;
+    missing = missing || expected[i];
+  }
+  return missing;
 }
 
 RegionLists::RegionLists(std::shared_ptr<const RegionFile> file, const RegionListsOptions& options,
@@ -160,7 +181,7 @@ RegionList RegionLists::at(const glm::dvec3& eye_in_mesh) {
   State& s = *state_;
   const glm::dvec3 eye = s.file->frame().to_unit(eye_in_mesh);
   const auto region = s.finder.find(eye);
-  const auto ahead = region && s.options.decode_ahead ? s.region_ahead(eye, *region) : std::nullopt;
+  const Ahead ahead = region && s.options.decode_ahead ? s.regions_ahead(eye, *region) : Ahead{};
   s.last_eye = region ? std::optional(eye) : std::nullopt;
 
   std::unique_lock lock(s.mutex);
@@ -171,7 +192,7 @@ RegionList RegionLists::at(const glm::dvec3& eye_in_mesh) {
   Slot* slot = s.slot_of(*region);
   if (slot == nullptr || slot->holds != Slot::Holds::List) {
     s.wanted = region;
-    if (ahead) s.expected = ahead;
+    s.expect(ahead);
     s.asked.notify_one();
     if (!s.options.decode_at_once) return {};
     s.answered.wait(lock, [&] {
@@ -179,8 +200,7 @@ RegionList RegionLists::at(const glm::dvec3& eye_in_mesh) {
       return s.failure || (slot != nullptr && slot->holds == Slot::Holds::List);
     });
     if (s.failure) std::rethrow_exception(s.failure);
-  } else if (ahead && s.slot_of(*ahead) == nullptr) {
-    s.expected = ahead;
+  } else if (s.expect(ahead)) {
     s.asked.notify_one();
   }
   slot->last_use = s.uses;
@@ -195,7 +215,7 @@ void RegionLists::wait() {
   s.answered.wait(lock, [&] {
     const bool decoding = std::any_of(s.slots.begin(), s.slots.end(),
                                       [](const Slot& slot) { return slot.holds == Slot::Holds::Decoding; });
-    return s.failure || (!s.wanted && !s.expected && !decoding);
+    return s.failure || (!s.wanted && !s.expected[0] && !s.expected[1] && !decoding);
   });
 }
 

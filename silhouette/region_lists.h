@@ -12,9 +12,9 @@ namespace rinkaku::silhouette {
 
 struct RegionListsOptions {
   Product product = Product::Matte;
-  int kept = 8;                 ///< decoded lists kept, the least recently used one goes first; at least 3
+  int kept = 8;                 ///< decoded lists kept, the least recently used one goes first; at least 4
   bool decode_at_once = false;  ///< decode a missing list in at() instead of drawing the whole mesh meanwhile
-  bool decode_ahead = true;     ///< a thread decodes the region the eye is heading for
+  bool decode_ahead = true;     ///< decode the regions the eye is heading for
 };
 
 /// What to draw this frame.
