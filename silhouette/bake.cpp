@@ -20,12 +20,12 @@ struct RegionCounts {
   std::uint64_t stored = 0;
 };
 
-RegionCounts count(const RegionMeshes& meshes, const PackedRegion& packed) {
+RegionCounts count(const RegionMeshes& meshes) {
   RegionCounts out;
-  out.matte = meshes.silhouette.size() + meshes.matte_front.size();
-  out.hidden = meshes.hidden.size();
-  out.least = meshes.silhouette.size() + meshes.hidden.size() + meshes.front_least;
-  for (int list = 0; list < PackedRegion::kColour; ++list) out.stored += packed.triangles[list];
+  out.matte = meshes.silhouette + meshes.matte_front.size();
+  out.hidden = meshes.hidden;
+  out.least = std::uint64_t{meshes.silhouette} + meshes.hidden + meshes.front_least;
+  out.stored = out.matte + meshes.hidden + meshes.depth_front.size();
   return out;
 }
 
@@ -85,14 +85,14 @@ class Baker {
   void work() {
     try {
       Reducer reducer(surface_);
-      RegionPacker packer(surface_.points.size());
+      RegionPacker packer(surface_);
       RegionMeshes meshes;
       for (;;) {
         const std::uint32_t region = next_.fetch_add(1);
         if (region >= packed_.size() || stopped() || failed_) return;
         reducer.reduce(view_region(options_.space, region), options_.reduce, meshes);
         packed_[region] = packer.pack(meshes);
-        counts_[region] = count(meshes, packed_[region]);
+        counts_[region] = count(meshes);
         const std::lock_guard lock(mutex_);
         ++done_;
         if (progress_) progress_(done_, static_cast<std::uint32_t>(packed_.size()));

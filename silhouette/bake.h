@@ -24,7 +24,7 @@ struct BakeReport {
   double seconds = 0;
   std::uint64_t bytes = 0;             ///< of the whole file
   std::uint64_t triangles_full = 0;    ///< drawn without regions
-  std::uint64_t triangles_stored = 0;  ///< over all regions, as stored: one list each of silhouette, hidden and fronts
+  std::uint64_t triangles_stored = 0;  ///< over all regions: silhouette, hidden and front meshes, each once
   double mean_ratio = 0;
   double max_ratio = 0;
   double mean_least_ratio = 0;  ///< with the silhouette mesh whole and the fewest front triangles possible

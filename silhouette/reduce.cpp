@@ -7,12 +7,6 @@
 #include "silhouette/front_mesh.h"
 
 namespace rinkaku::silhouette {
-namespace {
-
-glm::uvec3 reversed(const glm::uvec3& t) { return {t.x, t.z, t.y}; }
-
-}  // namespace
-
 struct Reducer::State {
   explicit State(const Surface& of) : surface(of), planes(triangle_planes(of)), builder(of), collapse(mesh) {}
 
@@ -30,20 +24,21 @@ struct Reducer::State {
   std::uint32_t collapse_front(double depth_distance, std::vector<glm::uvec3>& out);
 };
 
-/// Sorts the triangles into front and silhouette mesh, and marks those that can show.
+/// Sorts the triangles into front and silhouette mesh.
 void Reducer::State::split(RegionMeshes& out) {
   const std::size_t count = surface.triangles.size();
-  out.colour.assign((count + 7) / 8, 0);
-  out.silhouette.clear();
+  out.roles.assign(count, Role::Dropped);
+  out.silhouette = 0;
+  out.hidden = 0;
   front.clear();
   for (std::uint32_t t = 0; t < count; ++t) {
-    const glm::uvec3& v = surface.triangles[t];
-    if (sides[t] != Side::Back || surface.drawn_from_behind[t]) out.colour[t / 8] |= std::uint8_t(1u << (t % 8));
-    if (sides[t] == Side::Front) front.push_back({t, false});
-    if (sides[t] == Side::Back && surface.two_sided[t]) front.push_back({t, true});
-    if (sides[t] != Side::Silhouette) continue;
-    out.silhouette.push_back(v);
-    if (surface.two_sided[t]) out.silhouette.push_back(reversed(v));
+    if (sides[t] == Side::Silhouette) {
+      out.roles[t] = Role::Silhouette;
+      out.silhouette += surface.two_sided[t] ? 2 : 1;
+    } else if (sides[t] == Side::Front || surface.two_sided[t]) {
+      out.roles[t] = Role::Front;
+      front.push_back({t, sides[t] == Side::Back});
+    }
   }
 }
 
@@ -66,6 +61,17 @@ std::uint32_t Reducer::State::collapse_front(double depth_distance, std::vector<
   return least;
 }
 
+std::vector<glm::uvec3> triangles_of(const Surface& surface, const RegionMeshes& meshes, Role role) {
+  std::vector<glm::uvec3> out;
+  for (std::size_t t = 0; t < meshes.roles.size(); ++t) {
+    if (meshes.roles[t] != role) continue;
+    const glm::uvec3& v = surface.triangles[t];
+    out.push_back(v);
+    if (surface.two_sided[t]) out.emplace_back(v.x, v.z, v.y);
+  }
+  return out;
+}
+
 Reducer::Reducer(const Surface& surface) : state_(std::make_unique<State>(surface)) {}
 Reducer::~Reducer() = default;
 
@@ -73,7 +79,6 @@ void Reducer::reduce(const ViewRegion& region, const ReduceOptions& options, Reg
   state_->hull.set(region);
   classify(state_->planes, region, state_->sides);
   state_->split(out);
-  out.hidden.clear();
   out.front_before = static_cast<std::uint32_t>(state_->front.size());
   out.front_least = state_->collapse_front(std::numeric_limits<double>::infinity(), out.matte_front);
   out.depth_front.clear();

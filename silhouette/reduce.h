@@ -18,25 +18,40 @@ struct ReduceOptions {
   bool drop_hidden = true;
 };
 
+/// What becomes of a triangle of the surface in a region.
+enum class Role : std::uint8_t {
+  Dropped,     ///< turns its back on every eye
+  Front,       ///< in the front mesh (two-sided ones: whichever winding faces the eyes)
+  Silhouette,  ///< untouched
+  Hidden,      ///< silhouette, but the front mesh hides it from every eye: the matte doesn't need it
+};
+
 /// What is drawn of a surface for eyes in one region. Triangles are of the surface's points.
 ///
 /// Products, each drawn with back faces culled:
-///   matte  = silhouette + matte_front              the same pixels covered as by the whole mesh
-///   depth  = silhouette + hidden + depth_front     and the depth within `depth_distance` along the normal
-///   colour = the triangles marked in `colour`      the same picture for opaque, culled materials, in the mesh's order
-/// `silhouette` and `hidden` are untouched triangles of the surface; those of two-sided parts are in both windings.
+///   matte  = Silhouette + matte_front           the same pixels covered as by the whole mesh
+///   depth  = Silhouette + Hidden + depth_front  and the depth within `depth_distance` along the normal
+///   colour = all that can_show()                the same picture for opaque, culled materials, in the mesh's order
 struct RegionMeshes {
-  std::vector<glm::uvec3> silhouette;
-  std::vector<glm::uvec3> hidden;       ///< silhouette triangles that the matte doesn't need
+  std::vector<Role> roles;              ///< per triangle of the surface
   std::vector<glm::uvec3> matte_front;  ///< front mesh collapsed as far as it goes
   std::vector<glm::uvec3> depth_front;
-  std::vector<std::uint8_t> colour;  ///< bit t % 8 of byte t / 8: triangle t of the mesh can show
 
+  std::uint32_t silhouette = 0;    ///< triangles of that role as drawn: two-sided ones count twice
+  std::uint32_t hidden = 0;        ///< the same
   std::uint32_t front_before = 0;  ///< triangles of the front mesh before it was collapsed
   /// The fewest triangles any mesh with the front mesh's boundary and topology can have: its boundary edges less twice
   /// its Euler number.
   std::uint32_t front_least = 0;
 };
+
+/// The surface's triangles of one role, two-sided ones in both windings.
+std::vector<glm::uvec3> triangles_of(const Surface& surface, const RegionMeshes& meshes, Role role);
+
+/// Whether a triangle can show in colour.
+inline bool can_show(const Surface& surface, const RegionMeshes& meshes, std::size_t triangle) {
+  return meshes.roles[triangle] != Role::Dropped || surface.drawn_from_behind[triangle];
+}
 
 /// Reduces a surface for one region after the other, reusing its memory.
 ///

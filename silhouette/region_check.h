@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <initializer_list>
 #include <span>
 
 #include "embedded/region_format_generated.h"
@@ -24,8 +25,7 @@ struct RegionFileHead {
   double depth_distance = 0;
 };
 
-/// The sum over a file's head, hull and table of regions.
-std::uint64_t check_of(const RegionFileHead& head, std::span<const std::uint8_t> hull,
-                       std::span<const std::uint8_t> regions);
+/// The sum over a file's head and its other arrays: hull, triangles, sides, table of regions.
+std::uint64_t check_of(const RegionFileHead& head, std::initializer_list<std::span<const std::uint8_t>> arrays);
 
 }  // namespace rinkaku::silhouette

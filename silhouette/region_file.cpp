@@ -1,8 +1,6 @@
 #include "silhouette/region_file.h"
 
 #include <algorithm>
-#include <array>
-#include <bit>
 #include <cmath>
 #include <utility>
 
@@ -10,7 +8,9 @@
 
 #include "pipeline/frame/error.h"
 #include "silhouette/mapped_file.h"
+#include "silhouette/reduce.h"
 #include "silhouette/region_check.h"
+#include "silhouette/value_runs.h"
 
 namespace rinkaku::silhouette {
 namespace {
@@ -21,6 +21,9 @@ constexpr bool kSums = false;
 #else
 constexpr bool kSums = true;
 #endif
+
+constexpr std::uint8_t kTwoSided = 1;
+constexpr std::uint8_t kFromBehind = 2;
 
 Error damaged(const std::string& name, const char* what) {
   return input_error(name, std::string("is no sound region file: ") + what, "bake it again");
@@ -63,12 +66,13 @@ ViewSpace space_of(const format::RegionSet& set) {
   return region;
 }
 
-/// The lists of a region, in the order their bytes lie.
-std::array<format::List, 7> lists_of(const format::Region& region) {
-  return {region.silhouette(),  region.silhouette_two_sided(), region.hidden(), region.hidden_two_sided(),
-          region.matte_front(), region.depth_front(),          region.colour()};
+std::span<const std::uint8_t> bytes_of(const flatbuffers::Vector<std::uint8_t>* vector) {
+  return {vector->data(), vector->size()};
 }
-constexpr std::size_t kColour = 6;
+
+std::uint64_t size_of(const format::Region& region) {
+  return std::uint64_t{region.role_bytes()} + region.matte_front().bytes() + region.depth_front().bytes();
+}
 
 bool possible(const format::List& list) {
   // The codec takes a byte a triangle at least.
@@ -85,12 +89,17 @@ struct RegionFile::State {
   ViewSpace space;
   UnitFrame frame;
 
+  std::vector<std::uint32_t> triangles;  // the mesh's, three points each
+  std::vector<std::uint8_t> sides;       // per triangle: kTwoSided, kFromBehind
+
   void verify(std::span<const std::uint8_t> bytes);
   void verify_table() const;
-  std::span<const std::uint8_t> data_of(const format::Region& region) const;
-  std::span<const std::uint8_t> sound_data_of(std::uint32_t region) const;
-  void append(const format::List& list, std::span<const std::uint8_t> bytes, bool both_windings,
-              std::vector<std::uint32_t>& out) const;
+  void unpack_mesh();
+  const format::Region& region(std::uint32_t index) const { return *set->regions()->Get(index); }
+  std::span<const std::uint8_t> sound_data_of(const format::Region& region) const;
+  void append_list(const format::List& list, std::span<const std::uint8_t> bytes,
+                   std::vector<std::uint32_t>& out) const;
+  void append_role(const RunReader::Run& run, std::vector<std::uint32_t>& out) const;
 };
 
 void RegionFile::State::verify(std::span<const std::uint8_t> bytes) {
@@ -109,7 +118,8 @@ void RegionFile::State::verify(std::span<const std::uint8_t> bytes) {
         "bake it again");
   }
   const RegionFileHead head = head_of(*set);
-  if (kSums && set->check() != check_of(head, bytes_of(set->hull()), bytes_of(set->regions()))) {
+  if (kSums && set->check() != check_of(head, {bytes_of(set->hull()), bytes_of(set->triangles()),
+                                               bytes_of(set->sides()), bytes_of(set->regions())})) {
     throw damaged(name, "its head is damaged");
   }
   const bool finite = std::isfinite(head.centre[0]) && std::isfinite(head.centre[1]) && std::isfinite(head.centre[2]);
@@ -121,56 +131,58 @@ void RegionFile::State::verify(std::span<const std::uint8_t> bytes) {
   check(space, name.c_str());
   if (region_count(space) != set->regions()->size()) throw damaged(name, "regions are missing");
   verify_table();
+  unpack_mesh();
 }
 
 void RegionFile::State::verify_table() const {
   std::uint64_t first = 0;
+  const std::uint64_t most = std::uint64_t{set->mesh_triangles()} * 2;
   for (const format::Region* region : *set->regions()) {
     if (region->first() != first) throw damaged(name, "its table of regions makes no sense");
-    const auto lists = lists_of(*region);
-    for (std::size_t i = 0; i < lists.size(); ++i) {
-      first += lists[i].bytes();
-      if (i != kColour && !possible(lists[i])) throw damaged(name, "a list can't be as long as it says");
-    }
-    const std::uint64_t marks = (std::uint64_t{set->mesh_triangles()} + 7) / 8;
-    if (lists[kColour].bytes() != marks || lists[kColour].triangles() > set->mesh_triangles()) {
-      throw damaged(name, "a list is not as long as the mesh");
+    first += size_of(*region);
+    if (!possible(region->matte_front()) || !possible(region->depth_front()) || region->silhouette() > most ||
+        region->hidden() > most || region->colour() > set->mesh_triangles()) {
+      throw damaged(name, "a list can't be as long as it says");
     }
   }
   if (first != set->data()->size()) throw damaged(name, "its regions take more or less than there is");
 }
 
-std::span<const std::uint8_t> RegionFile::State::data_of(const format::Region& region) const {
-  std::uint64_t size = 0;
-  for (const format::List& list : lists_of(region)) size += list.bytes();
-  return std::span(set->data()->data(), set->data()->size()).subspan(region.first(), size);
+void RegionFile::State::unpack_mesh() {
+  const format::List all(set->mesh_triangles(), set->triangles()->size());
+  if (all.triangles() == 0 || !possible(all)) throw damaged(name, "its mesh can't be as large as it says");
+  append_list(all, bytes_of(set->triangles()), triangles);
+  RunReader runs(bytes_of(set->sides()), set->mesh_triangles());
+  while (const auto run = runs.next()) sides.insert(sides.end(), run->count, run->value);
+  if (!runs.complete()) throw damaged(name, "its mesh can't be unpacked");
 }
 
-std::span<const std::uint8_t> RegionFile::State::sound_data_of(std::uint32_t index) const {
-  const format::Region& region = *set->regions()->Get(index);
-  const auto data = data_of(region);
+std::span<const std::uint8_t> RegionFile::State::sound_data_of(const format::Region& region) const {
+  const auto data = bytes_of(set->data()).subspan(region.first(), size_of(region));
   if (kSums && check_of(data) != region.check()) throw damaged(name, "a region is damaged");
   return data;
 }
 
-void RegionFile::State::append(const format::List& list, std::span<const std::uint8_t> bytes, bool both_windings,
-                               std::vector<std::uint32_t>& out) const {
+void RegionFile::State::append_list(const format::List& list, std::span<const std::uint8_t> bytes,
+                                    std::vector<std::uint32_t>& out) const {
   if (list.triangles() == 0) return;
   const std::size_t first = out.size();
   const std::size_t count = std::size_t{list.triangles()} * 3;
-  out.resize(first + count * (both_windings ? 2 : 1));
+  out.resize(first + count);
   if (meshopt_decodeIndexBuffer(&out[first], count, sizeof(std::uint32_t), bytes.data(), bytes.size()) != 0) {
     throw damaged(name, "a list can't be unpacked");
   }
-  const auto decoded = std::span(out).subspan(first, count);
-  if (*std::max_element(decoded.begin(), decoded.end()) >= set->points()) {
+  if (*std::max_element(out.begin() + static_cast<std::ptrdiff_t>(first), out.end()) >= set->points()) {
     throw damaged(name, "a list has points that the mesh has not");
   }
-  if (!both_windings) return;
-  for (std::size_t i = 0; i < count; i += 3) {
-    out[first + count + i] = out[first + i];
-    out[first + count + i + 1] = out[first + i + 2];
-    out[first + count + i + 2] = out[first + i + 1];
+}
+
+/// Appends the triangles of a run, two-sided ones in both windings.
+void RegionFile::State::append_role(const RunReader::Run& run, std::vector<std::uint32_t>& out) const {
+  for (std::size_t t = run.first; t < std::size_t{run.first} + run.count; ++t) {
+    const std::uint32_t* v = &triangles[t * 3];
+    out.insert(out.end(), v, v + 3);
+    if (sides[t] & kTwoSided) out.insert(out.end(), {v[0], v[2], v[1]});
   }
 }
 
@@ -217,17 +229,16 @@ std::uint64_t RegionFile::bytes() const {
 }
 
 std::uint32_t RegionFile::triangles(std::uint32_t region, Product product) const {
-  const format::Region& r = *state_->set->regions()->Get(region);
-  const std::uint32_t seen = r.silhouette().triangles() + 2 * r.silhouette_two_sided().triangles();
+  const format::Region& r = state_->region(region);
   switch (product) {
     case Product::Matte:
-      return seen + r.matte_front().triangles();
+      return r.silhouette() + r.matte_front().triangles();
     case Product::Depth:
-      return seen + r.hidden().triangles() + 2 * r.hidden_two_sided().triangles() + r.depth_front().triangles();
+      return r.silhouette() + r.hidden() + r.depth_front().triangles();
     case Product::Colour:
       break;
   }
-  return r.colour().triangles();
+  return r.colour();
 }
 
 void RegionFile::decode(std::uint32_t region, Product product, std::vector<std::uint32_t>& out) const {
@@ -236,29 +247,42 @@ void RegionFile::decode(std::uint32_t region, Product product, std::vector<std::
   if (depth && !has_depth()) {
     throw input_error(state_->name, "has no lists for depth", "bake it again with a depth distance");
   }
-  std::span<const std::uint8_t> rest = state_->sound_data_of(region);
-  const auto lists = lists_of(*state_->set->regions()->Get(region));
-  const std::array<bool, 7> wanted{true, true, depth, depth, !depth, depth, false};
-  for (std::size_t i = 0; i < lists.size(); ++i) {
-    if (wanted[i]) state_->append(lists[i], rest.first(lists[i].bytes()), i == 1 || i == 3, out);
-    rest = rest.subspan(lists[i].bytes());
+  const format::Region& r = state_->region(region);
+  const auto data = state_->sound_data_of(r);
+  out.reserve(std::size_t{triangles(region, product)} * 3);
+  RunReader runs(data.first(r.role_bytes()), mesh_triangles());
+  while (const auto run = runs.next()) {
+    const Role role{run->value};
+    if (role == Role::Silhouette || (depth && role == Role::Hidden)) state_->append_role(*run, out);
+  }
+  if (!runs.complete()) throw damaged(state_->name, "a region can't be unpacked");
+  const auto fronts = data.subspan(r.role_bytes());
+  const std::size_t matte_bytes = r.matte_front().bytes();
+  state_->append_list(depth ? r.depth_front() : r.matte_front(),
+                      depth ? fronts.subspan(matte_bytes) : fronts.first(matte_bytes), out);
+  if (out.size() != std::size_t{triangles(region, product)} * 3) {
+    throw damaged(state_->name, "a list is not as long as it says");
   }
 }
 
-void RegionFile::decode_colour(std::uint32_t region, std::span<const glm::uvec3> triangles,
+void RegionFile::decode_colour(std::uint32_t region, std::span<const glm::uvec3> mesh,
                                std::vector<std::uint32_t>& out) const {
   out.clear();
-  if (triangles.size() != mesh_triangles()) {
+  if (mesh.size() != mesh_triangles()) {
     throw input_error(state_->name, "was baked from another mesh", "bake it again from this one");
   }
-  const auto marks =
-      state_->sound_data_of(region).last(lists_of(*state_->set->regions()->Get(region))[kColour].bytes());
-  for (std::size_t byte = 0; byte < marks.size(); ++byte) {
-    for (unsigned rest = marks[byte]; rest != 0; rest &= rest - 1) {
-      const std::size_t t = byte * 8 + static_cast<std::size_t>(std::countr_zero(rest));
-      if (t >= triangles.size()) throw damaged(state_->name, "a list has triangles that the mesh has not");
-      out.insert(out.end(), {triangles[t].x, triangles[t].y, triangles[t].z});
+  const format::Region& r = state_->region(region);
+  const auto data = state_->sound_data_of(r);
+  out.reserve(std::size_t{r.colour()} * 3);
+  RunReader runs(data.first(r.role_bytes()), mesh_triangles());
+  while (const auto run = runs.next()) {
+    for (std::size_t t = run->first; t < std::size_t{run->first} + run->count; ++t) {
+      if (Role{run->value} == Role::Dropped && !(state_->sides[t] & kFromBehind)) continue;
+      out.insert(out.end(), {mesh[t].x, mesh[t].y, mesh[t].z});
     }
+  }
+  if (!runs.complete() || out.size() != std::size_t{r.colour()} * 3) {
+    throw damaged(state_->name, "a region can't be unpacked");
   }
 }
 

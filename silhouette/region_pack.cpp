@@ -1,80 +1,74 @@
 #include "silhouette/region_pack.h"
 
 #include <algorithm>
-#include <bit>
 
 #include <meshoptimizer.h>
 
 #include "pipeline/frame/error.h"
 #include "silhouette/region_check.h"
 #include "silhouette/region_file.h"
+#include "silhouette/value_runs.h"
 
 namespace rinkaku::silhouette {
 namespace {
-
-bool is_reversed_copy(const glm::uvec3& a, const glm::uvec3& b) { return a.x == b.x && a.y == b.z && a.z == b.y; }
-
-format::List list_of(const PackedRegion& region, PackedRegion::List list) {
-  return {region.triangles[list], region.bytes[list]};
-}
 
 template <typename T>
 std::span<const std::uint8_t> bytes_of(const std::vector<T>& values) {
   return {reinterpret_cast<const std::uint8_t*>(values.data()), values.size() * sizeof(T)};
 }
 
-}  // namespace
-
-void RegionPacker::split_windings(std::span<const glm::uvec3> triangles) {
-  single_.clear();
-  both_.clear();
-  for (std::size_t i = 0; i < triangles.size(); ++i) {
-    const glm::uvec3& t = triangles[i];
-    const bool both = i + 1 < triangles.size() && is_reversed_copy(t, triangles[i + 1]);
-    auto& list = both ? both_ : single_;
-    list.insert(list.end(), {t.x, t.y, t.z});
-    if (both) ++i;
-  }
+/// Appends an index list in the order it has; returns its bytes.
+std::uint32_t append_encoded(const std::vector<std::uint32_t>& indices, std::size_t points,
+                             std::vector<std::uint8_t>& data) {
+  const std::size_t first = data.size();
+  data.resize(first + meshopt_encodeIndexBufferBound(indices.size(), points));
+  const std::size_t size = meshopt_encodeIndexBuffer(&data[first], data.size() - first, indices.data(), indices.size());
+  data.resize(first + size);
+  return static_cast<std::uint32_t>(size);
 }
 
-void RegionPacker::add_list(PackedRegion& out, PackedRegion::List list) {
-  out.triangles[list] = static_cast<std::uint32_t>(indices_.size() / 3);
-  if (indices_.empty()) return;
+std::vector<std::uint8_t> encoded_triangles(const Surface& surface) {
+  std::vector<std::uint32_t> indices;
+  indices.reserve(surface.triangles.size() * 3);
+  for (const glm::uvec3& t : surface.triangles) indices.insert(indices.end(), {t.x, t.y, t.z});
+  std::vector<std::uint8_t> out;
+  append_encoded(indices, surface.points.size(), out);
+  return out;
+}
+
+std::vector<std::uint8_t> encoded_sides(const Surface& surface) {
+  std::vector<std::uint8_t> sides(surface.triangles.size());
+  for (std::size_t t = 0; t < sides.size(); ++t) {
+    sides[t] = static_cast<std::uint8_t>((surface.two_sided[t] ? 1 : 0) | (surface.drawn_from_behind[t] ? 2 : 0));
+  }
+  std::vector<std::uint8_t> out;
+  append_runs(sides, out);
+  return out;
+}
+
+}  // namespace
+
+std::uint32_t RegionPacker::append_front(const std::vector<glm::uvec3>& triangles, std::vector<std::uint8_t>& data) {
+  if (triangles.empty()) return 0;
+  indices_.clear();
+  for (const glm::uvec3& t : triangles) indices_.insert(indices_.end(), {t.x, t.y, t.z});
   ordered_.resize(indices_.size());
-  meshopt_optimizeVertexCacheStrip(ordered_.data(), indices_.data(), indices_.size(), points_);
-  const std::size_t first = out.data.size();
-  out.data.resize(first + meshopt_encodeIndexBufferBound(indices_.size(), points_));
-  const std::size_t size =
-      meshopt_encodeIndexBuffer(&out.data[first], out.data.size() - first, ordered_.data(), ordered_.size());
-  out.data.resize(first + size);
-  out.bytes[list] = static_cast<std::uint32_t>(size);
+  meshopt_optimizeVertexCacheStrip(ordered_.data(), indices_.data(), indices_.size(), surface_.points.size());
+  return append_encoded(ordered_, surface_.points.size(), data);
 }
 
 PackedRegion RegionPacker::pack(const RegionMeshes& meshes) {
   PackedRegion out;
-  const auto add_both = [&](const std::vector<glm::uvec3>& triangles, PackedRegion::List single,
-                            PackedRegion::List both) {
-    split_windings(triangles);
-    indices_.swap(single_);
-    add_list(out, single);
-    indices_.swap(both_);
-    add_list(out, both);
-  };
-  const auto add_front = [&](const std::vector<glm::uvec3>& triangles, PackedRegion::List list) {
-    indices_.clear();
-    for (const glm::uvec3& t : triangles) indices_.insert(indices_.end(), {t.x, t.y, t.z});
-    add_list(out, list);
-  };
-  add_both(meshes.silhouette, PackedRegion::kSilhouette, PackedRegion::kSilhouetteTwoSided);
-  add_both(meshes.hidden, PackedRegion::kHidden, PackedRegion::kHiddenTwoSided);
-  add_front(meshes.matte_front, PackedRegion::kMatteFront);
-  add_front(meshes.depth_front, PackedRegion::kDepthFront);
-
-  for (const std::uint8_t byte : meshes.colour) {
-    out.triangles[PackedRegion::kColour] += static_cast<std::uint32_t>(std::popcount(byte));
-  }
-  out.bytes[PackedRegion::kColour] = static_cast<std::uint32_t>(meshes.colour.size());
-  out.data.insert(out.data.end(), meshes.colour.begin(), meshes.colour.end());
+  static_assert(sizeof(Role) == 1);
+  append_runs({reinterpret_cast<const std::uint8_t*>(meshes.roles.data()), meshes.roles.size()}, out.data);
+  out.role_bytes = static_cast<std::uint32_t>(out.data.size());
+  out.silhouette = meshes.silhouette;
+  out.hidden = meshes.hidden;
+  for (std::size_t t = 0; t < meshes.roles.size(); ++t) out.colour += can_show(surface_, meshes, t) ? 1 : 0;
+  out.matte_front = static_cast<std::uint32_t>(meshes.matte_front.size());
+  out.matte_front_bytes = append_front(meshes.matte_front, out.data);
+  out.depth_front = static_cast<std::uint32_t>(meshes.depth_front.size());
+  out.depth_front_bytes = append_front(meshes.depth_front, out.data);
   out.data.shrink_to_fit();
   return out;
 }
@@ -101,10 +95,9 @@ std::vector<std::uint8_t> region_file_bytes(const Surface& surface, const ViewSp
   std::vector<format::Region> table;
   std::uint64_t total = 0;
   for (const PackedRegion& r : regions) {
-    table.emplace_back(total, check_of(r.data), list_of(r, PackedRegion::kSilhouette),
-                       list_of(r, PackedRegion::kSilhouetteTwoSided), list_of(r, PackedRegion::kHidden),
-                       list_of(r, PackedRegion::kHiddenTwoSided), list_of(r, PackedRegion::kMatteFront),
-                       list_of(r, PackedRegion::kDepthFront), list_of(r, PackedRegion::kColour));
+    table.emplace_back(total, check_of(r.data), r.role_bytes, r.silhouette, r.hidden, r.colour,
+                       format::List(r.matte_front, r.matte_front_bytes),
+                       format::List(r.depth_front, r.depth_front_bytes));
     total += r.data.size();
   }
   constexpr std::uint64_t kMost = 2'000'000'000;
@@ -112,17 +105,22 @@ std::vector<std::uint8_t> region_file_bytes(const Surface& surface, const ViewSp
     throw input_error("bake", "the regions take more than 2 GB", "choose fewer cells or shells");
   }
 
-  flatbuffers::FlatBufferBuilder builder(total + 65536);
+  flatbuffers::FlatBufferBuilder builder(total + surface.triangles.size() * 4 + 65536);
   std::uint8_t* data = nullptr;
   const auto data_at = builder.CreateUninitializedVector(total, &data);
   for (const PackedRegion& r : regions) data = std::copy(r.data.begin(), r.data.end(), data);
+  const std::vector<std::uint8_t> triangles = encoded_triangles(surface);
+  const std::vector<std::uint8_t> sides = encoded_sides(surface);
+  const auto triangles_at = builder.CreateVector(triangles);
+  const auto sides_at = builder.CreateVector(sides);
   const auto table_at = builder.CreateVectorOfStructs(table);
   const auto hull_at = hull.empty() ? 0 : builder.CreateVectorOfStructs(hull);
   const format::Vec3 centre(head.centre[0], head.centre[1], head.centre[2]);
   const auto root = format::CreateRegionSet(
       builder, RegionFile::kVersion, head.mesh_hash, head.points, head.mesh_triangles, head.full_triangles, &centre,
       head.radius, static_cast<std::uint32_t>(head.cells), static_cast<std::uint32_t>(head.shells), head.inner_radii,
-      hull_at, head.depth_distance, table_at, data_at, check_of(head, bytes_of(hull), bytes_of(table)));
+      hull_at, head.depth_distance, triangles_at, sides_at, table_at, data_at,
+      check_of(head, {bytes_of(hull), triangles, sides, bytes_of(table)}));
   format::FinishRegionSetBuffer(builder, root);
   return {builder.GetBufferPointer(), builder.GetBufferPointer() + builder.GetSize()};
 }

@@ -10,32 +10,32 @@
 
 namespace rinkaku::silhouette {
 
-/// A region's lists as they are stored.
+/// A region as it is stored; see region_format.fbs.
 struct PackedRegion {
-  enum List { kSilhouette, kSilhouetteTwoSided, kHidden, kHiddenTwoSided, kMatteFront, kDepthFront, kColour, kLists };
-  std::uint32_t triangles[kLists] = {};
-  std::uint32_t bytes[kLists] = {};
   std::vector<std::uint8_t> data;
+  std::uint32_t role_bytes = 0;
+  std::uint32_t silhouette = 0;
+  std::uint32_t hidden = 0;
+  std::uint32_t colour = 0;
+  std::uint32_t matte_front = 0, matte_front_bytes = 0;
+  std::uint32_t depth_front = 0, depth_front_bytes = 0;
 };
 
-/// Compresses regions, one after the other, reusing its memory. Each list is put into an order that compresses well.
+/// Compresses regions, one after the other, reusing its memory.
 class RegionPacker {
  public:
-  /// `points`: how many the surface has.
-  explicit RegionPacker(std::size_t points) : points_(points) {}
+  /// Keeps a reference to the surface.
+  explicit RegionPacker(const Surface& surface) : surface_(surface) {}
 
   PackedRegion pack(const RegionMeshes& meshes);
 
  private:
-  void add_list(PackedRegion& out, PackedRegion::List list);
-  /// Takes apart what is in one winding and what is in both.
-  void split_windings(std::span<const glm::uvec3> triangles);
+  /// Appends a front mesh, in an order that compresses well; returns its bytes.
+  std::uint32_t append_front(const std::vector<glm::uvec3>& triangles, std::vector<std::uint8_t>& data);
 
-  std::size_t points_;
+  const Surface& surface_;
   std::vector<std::uint32_t> indices_;
   std::vector<std::uint32_t> ordered_;
-  std::vector<std::uint32_t> single_;
-  std::vector<std::uint32_t> both_;
 };
 
 /// Puts a file together. Throws Error (Input) if it would be too large for the format (2 GB).
