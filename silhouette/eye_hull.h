@@ -16,10 +16,16 @@ class EyeHull {
  public:
   void set(const ViewRegion& region) {
     vertices_.clear();
+    glm::dvec3 sum(0);
     for (const glm::dvec4& h : region.hull) {
+      sum += glm::normalize(glm::dvec3(h));
       vertices_.push_back({glm::dvec3(h), h.w, kMargin * (glm::length(glm::dvec3(h)) + h.w)});
     }
+    middle_ = glm::length(sum) > 0 ? glm::normalize(sum) : glm::dvec3(0, 0, 1);
   }
+
+  /// Roughly where the eyes are: a unit vector.
+  const glm::dvec3& middle() const { return middle_; }
 
   /// Whether a triangle through `corner` (inside the unit sphere), with `normal` times any `length`, faces every hull
   /// vertex with the margin that classify() asks for.
@@ -41,6 +47,7 @@ class EyeHull {
     double enough;
   };
   std::vector<Vertex> vertices_;
+  glm::dvec3 middle_{0, 0, 1};
 };
 
 }  // namespace rinkaku::silhouette

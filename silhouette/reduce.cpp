@@ -1,10 +1,12 @@
 #include "silhouette/reduce.h"
 
+#include <cmath>
 #include <limits>
 
 #include "silhouette/classify.h"
 #include "silhouette/front_collapse.h"
 #include "silhouette/front_mesh.h"
+#include "silhouette/shorten_edges.h"
 
 namespace rinkaku::silhouette {
 struct Reducer::State {
@@ -49,6 +51,7 @@ std::uint32_t Reducer::State::collapse_front(double depth_distance, std::vector<
   const std::uint32_t inner = builder.build(front, mesh, points);
   const std::uint32_t least = static_cast<std::uint32_t>(front.size()) - 2 * inner;
   collapse.run(hull, depth_distance);
+  if (std::isinf(depth_distance)) shorten_edges(mesh, hull);
   out.clear();
   for (const auto face : mesh.all_faces()) {
     if (mesh.status(face).deleted()) continue;
