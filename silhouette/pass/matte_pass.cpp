@@ -1,5 +1,7 @@
 #include "silhouette/pass/matte_pass.h"
 
+#include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include <glm/gtc/type_ptr.hpp>
@@ -42,11 +44,18 @@ GLenum front_winding(const glm::dmat4& clip_from_object) {
 
 }  // namespace
 
-MattePass::MattePass(std::span<const glm::vec3> points) : centre_(mesh::bounding_box(points).centre()) {
+MattePass::Shader::Shader(bool cull_per_fragment) {
+  const std::string_view defines[] = {"CULL_PER_FRAGMENT"};
   const std::string_view vertex[] = {embedded::matte_vert};
   const std::string_view fragment[] = {embedded::matte_frag};
-  program_ = gl::Program("matte", {}, vertex, fragment);
-  clip_from_local_ = program_.uniform("clip_from_local");
+  program = gl::Program("matte", std::span(defines).first(cull_per_fragment ? 1 : 0), vertex, fragment);
+  clip_from_local = program.uniform("clip_from_local");
+}
+
+MattePass::MattePass(std::span<const glm::vec3> points) {
+  const mesh::Box box = mesh::bounding_box(points);
+  centre_ = box.centre();
+  half_size_ = box.size() * 0.5;
   vertices_ = centred_vertices(points, centre_);
   array_ = vertex_array(vertices_.name());
 }
@@ -57,17 +66,31 @@ void MattePass::set_triangles(std::span<const std::uint32_t> indices) {
   glVertexArrayElementBuffer(array_.name(), indices_.name());
 }
 
+// As depth is clamped, only the plane through the eye and the picture's border are left to clip at. Drivers may let
+// triangles reach beyond the border, but llvmpipe doesn't.
+bool MattePass::may_be_clipped(const glm::dmat4& clip_from_local) const {
+  constexpr double reach = 0.9999;  // less than what rounding the matrix moves
+  for (int corner = 0; corner < 8; ++corner) {
+    const glm::dvec3 sides(corner & 1 ? 1 : -1, corner & 2 ? 1 : -1, corner & 4 ? 1 : -1);
+    const glm::dvec4 clip = clip_from_local * glm::dvec4(sides * half_size_, 1.0);
+    if (!(std::max(std::abs(clip.x), std::abs(clip.y)) < reach * clip.w)) return true;
+  }
+  return false;
+}
+
 void MattePass::draw(const glm::dmat4& clip_from_object) {
   glm::dmat4 clip_from_local = clip_from_object;
   clip_from_local[3] = clip_from_object * glm::dvec4(centre_, 1.0);
   glDisable(GL_DEPTH_TEST);
   glDisable(GL_BLEND);
   glEnable(GL_DEPTH_CLAMP);
-  glEnable(GL_CULL_FACE);
+  const bool per_fragment = may_be_clipped(clip_from_local);
+  if (!per_fragment) glEnable(GL_CULL_FACE);
   glCullFace(GL_BACK);
   glFrontFace(front_winding(clip_from_object));
-  glUseProgram(program_.name());
-  glUniformMatrix4fv(clip_from_local_, 1, GL_FALSE, glm::value_ptr(glm::mat4(clip_from_local)));
+  const Shader& shader = per_fragment ? culled_per_fragment_ : culled_before_;
+  glUseProgram(shader.program.name());
+  glUniformMatrix4fv(shader.clip_from_local, 1, GL_FALSE, glm::value_ptr(glm::mat4(clip_from_local)));
   glBindVertexArray(array_.name());
   glDrawElements(GL_TRIANGLES, index_count_, GL_UNSIGNED_INT, nullptr);
   glDisable(GL_DEPTH_CLAMP);  // other passes clip, and cull nothing

@@ -20,7 +20,12 @@ namespace rinkaku::silhouette {
 /// whichever list it comes from. Together with what the lists promise, mattes are then equal to the last pixel:
 /// docs/silhouette.md has the argument. It needs, and draw() sets: back faces culled, no depth test, no blending, and
 /// depth clamped rather than clipped, since a region's list does not keep the surface's depth.
-/// Needs a current GL context. Not for several samples a pixel: each sample would have to be compared.
+///
+/// Culling must not depend on what else is drawn. Mesa's software drivers cull by exact positions where some triangle
+/// nearby in the list has to be clipped, else by positions on the pixel grid, and slivers may face the other way there.
+/// So where an object may have to be clipped (it is cut by the plane through the eye, or reaches out of the
+/// picture), faces are culled in the fragment shader, which always goes by the grid; that takes about half as long
+/// again. Needs a current GL context. Not for several samples a pixel: each sample would have to be compared.
 class MattePass {
  public:
   /// `points`: the object's welded points, in its own coordinates.
@@ -35,9 +40,17 @@ class MattePass {
   void draw(const glm::dmat4& clip_from_object);
 
  private:
-  gl::Program program_;
-  GLint clip_from_local_ = -1;
+  struct Shader {
+    explicit Shader(bool cull_per_fragment);
+    gl::Program program;
+    GLint clip_from_local = -1;
+  };
+  bool may_be_clipped(const glm::dmat4& clip_from_local) const;
+
+  Shader culled_before_{false};
+  Shader culled_per_fragment_{true};
   glm::dvec3 centre_{0};  // vertices are stored relative to it, so a mesh far from its own origin loses nothing
+  glm::dvec3 half_size_{0};
   gl::StaticBuffer vertices_;
   gl::StreamBuffer indices_;
   GLsizei index_count_ = 0;

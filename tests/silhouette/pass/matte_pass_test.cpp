@@ -1,6 +1,7 @@
 #include "silhouette/pass/matte_pass.h"
 
 #include <algorithm>
+#include <random>
 
 #include "silhouette/pass/matte_target.h"
 #include "silhouette/verify/matte_comparison.h"
@@ -112,6 +113,49 @@ TEST_F(MattePassTest, NewListReplacesTheOld) {
     target.read(32, 32, matte.data());
     EXPECT_EQ(covered(matte) > 0, expected);
   }
+}
+
+// Slivers so thin that snapping to the pixel grid turns many of them over; a driver that culls them elsewhere when
+// something near them in the list is clipped must not draw another picture then.
+TEST_F(MattePassTest, CullingDoesNotDependOnWhatElseIsDrawn) {
+  constexpr int width = 640, height = 480;
+  const CameraModel camera = camera_of({width, height}, 1.0);
+  std::mt19937 engine(1);
+  const auto unit = [&engine] { return static_cast<double>(engine() >> 8) * 0x1p-24; };
+  std::vector<glm::vec3> points;
+  std::vector<std::uint32_t> slivers;
+  const auto add = [&](double x_px, double y_px) {
+    const glm::dvec2 n = to_normalised(camera, {x_px, y_px});
+    points.emplace_back(n.x, n.y, 1);
+    slivers.push_back(static_cast<std::uint32_t>(points.size() - 1));
+  };
+  for (int i = 0; i < 4000; ++i) {
+    const double x = 10 + 600 * unit(), y = 10 + 200 * unit(), dx = 6 + 8 * unit(), dy = 6 * unit() - 3;
+    const double off = 0.006 * unit() - 0.003, along = 0.2 + 0.6 * unit();
+    add(x, y);
+    add(x + dx, y + dy);
+    add(x + along * dx, y + along * dy + off);
+  }
+  std::vector<std::uint32_t> with_clipped = slivers;
+  points.insert(points.end(), {{-0.1f, 0.3f, 1}, {0.1f, 0.3f, 1}, {0, 9, 1}});  // reaches out below
+  const auto n = static_cast<std::uint32_t>(points.size());
+  for (std::size_t at = 0; at < with_clipped.size(); at += 300) {
+    with_clipped.insert(with_clipped.begin() + static_cast<std::ptrdiff_t>(at), {n - 3, n - 2, n - 1});
+  }
+  MattePass pass(points);
+  MatteTarget target;
+  const auto upper_half = [&](const std::vector<std::uint32_t>& list) {
+    std::vector<std::uint8_t> matte(width * height);
+    pass.set_triangles(list);
+    target.begin(width, height);
+    pass.draw(passes::clip_from_camera(camera, {0, 0, width, height}));
+    target.read(width, height, matte.data());
+    matte.resize(width * height / 2);
+    return matte;
+  };
+  const auto alone = upper_half(slivers);
+  EXPECT_GT(covered(alone), 5) << "some slivers cover a pixel's centre";
+  EXPECT_EQ(alone, upper_half(with_clipped));
 }
 
 TEST_F(MattePassTest, PictureLargerThanTheDriverDrawsIsRefused) {
