@@ -6,6 +6,7 @@
 #include "silhouette/classify.h"
 #include "silhouette/front_collapse.h"
 #include "silhouette/front_mesh.h"
+#include "silhouette/hidden.h"
 #include "silhouette/shorten_edges.h"
 
 namespace rinkaku::silhouette {
@@ -22,7 +23,10 @@ struct Reducer::State {
   FrontCollapse collapse;
   std::vector<std::uint32_t> points;  // of the collapse mesh's vertices
 
+  HiddenFinder hidden;
+
   void split(RegionMeshes& out);
+  void drop_hidden(const ViewRegion& region, RegionMeshes& out);
   std::uint32_t collapse_front(double depth_distance, std::vector<glm::uvec3>& out);
 };
 
@@ -64,6 +68,23 @@ std::uint32_t Reducer::State::collapse_front(double depth_distance, std::vector<
   return least;
 }
 
+/// Takes the silhouette triangles that the collapsed front mesh hides out of the matte.
+void Reducer::State::drop_hidden(const ViewRegion& region, RegionMeshes& out) {
+  hidden.start(region, mesh);
+  for (std::size_t t = 0; t < out.roles.size(); ++t) {
+    if (out.roles[t] != Role::Silhouette) continue;
+    const glm::uvec3& v = surface.triangles[t];
+    if (!hidden.is_hidden({surface.frame.to_unit(surface.points[v.x]), surface.frame.to_unit(surface.points[v.y]),
+                           surface.frame.to_unit(surface.points[v.z])})) {
+      continue;
+    }
+    const std::uint32_t drawn = surface.two_sided[t] ? 2 : 1;
+    out.roles[t] = Role::Hidden;
+    out.silhouette -= drawn;
+    out.hidden += drawn;
+  }
+}
+
 std::vector<glm::uvec3> triangles_of(const Surface& surface, const RegionMeshes& meshes, Role role) {
   std::vector<glm::uvec3> out;
   for (std::size_t t = 0; t < meshes.roles.size(); ++t) {
@@ -84,6 +105,7 @@ void Reducer::reduce(const ViewRegion& region, const ReduceOptions& options, Reg
   state_->split(out);
   out.front_before = static_cast<std::uint32_t>(state_->front.size());
   out.front_least = state_->collapse_front(std::numeric_limits<double>::infinity(), out.matte_front);
+  if (options.drop_hidden) state_->drop_hidden(region, out);
   out.depth_front.clear();
   if (options.depth_distance > 0) state_->collapse_front(options.depth_distance, out.depth_front);
 }

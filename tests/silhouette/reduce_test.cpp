@@ -106,7 +106,7 @@ void mattes_are_equal(const Surface& surface, const RegionLayout& layout, std::u
   std::size_t regions = 0;
   for (std::uint32_t r = 0; r < region_count(layout); r += every) {
     const ViewRegion region = view_region(layout, r);
-    reducer.reduce(region, {}, meshes);
+    reducer.reduce(region, {0, r % 3 != 0}, meshes);
     const auto list = matte_list(surface, meshes);
     triangles += list.size() / 3;
     ++regions;
@@ -126,6 +126,47 @@ void mattes_are_equal(const Surface& surface, const RegionLayout& layout, std::u
 
 TEST(Reduce, MatteCoversTheSamePixelsAsTheWholeMesh) {
   mattes_are_equal(surface_of(test::wavy_sphere(5)), {4, 2, 1.5}, 5);
+}
+
+/// A sphere with a small one before it, in the middle of the region's view.
+test::Soup sphere_before_sphere() {
+  test::Soup soup = test::sphere(4);
+  const test::Soup small = test::sphere(3);
+  const auto first = static_cast<std::uint32_t>(soup.positions.size());
+  for (const glm::vec3& p : small.positions) soup.positions.push_back(p * 0.1f + glm::vec3(1.2f, 0.05f, 0.05f));
+  for (const glm::uvec3& t : small.triangles) soup.triangles.push_back(t + first);
+  return test::one_part(std::move(soup));
+}
+
+TEST(Reduce, MatteLeavesOutWhatTheFrontMeshHides) {
+  const Surface surface = surface_of(sphere_before_sphere());
+  Reducer reducer(surface);
+  RegionMeshes whole;
+  RegionMeshes meshes;
+  const RegionLayout layout{16, 1, 1.5};
+  const ViewRegion region = view_region(layout, *RegionFinder(layout).find({3, 0.3, 0.3}));
+  reducer.reduce(region, {0.01, false}, whole);
+  reducer.reduce(region, {0.01, true}, meshes);
+  EXPECT_EQ(whole.hidden, 0u);
+  EXPECT_EQ(whole.silhouette, meshes.silhouette + meshes.hidden);
+  EXPECT_EQ(whole.depth_front, meshes.depth_front);
+  // The small sphere's contour lies before the large one's front mesh from every eye, the large one's own before
+  // nothing.
+  std::size_t of_small = 0;
+  for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
+    const bool small = surface.points[surface.triangles[t].x].x > 1.05f;
+    if (small) {
+      EXPECT_NE(meshes.roles[t], Role::Silhouette);
+      of_small += meshes.roles[t] == Role::Hidden;
+    } else {
+      EXPECT_NE(meshes.roles[t], Role::Hidden);
+    }
+  }
+  EXPECT_GT(of_small, 50u);
+}
+
+TEST(Reduce, MatteWithoutHiddenTrianglesIsTheSame) {
+  mattes_are_equal(surface_of(sphere_before_sphere()), {6, 1, 1.5}, 2);
 }
 
 TEST(Reduce, MatteOfAnOpenMeshHasNoHoles) {
