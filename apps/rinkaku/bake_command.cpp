@@ -15,6 +15,7 @@
 namespace rinkaku::app {
 
 int bake(const BakeCall& call) {
+  const std::atomic<bool>& stop = interrupted();  // from here on: importing takes a while as well
   const WholeFile checked(call.output, call.force);
   checked.must_not_be(call.mesh);
   const silhouette::Surface surface = read_surface(call.mesh);
@@ -25,7 +26,7 @@ int bake(const BakeCall& call) {
   {
     ProgressBar bar("regions", "a second");
     baked = silhouette::bake(
-        surface, options, [&bar](std::uint32_t done, std::uint32_t total) { bar.update(done, total); }, &interrupted());
+        surface, options, [&bar](std::uint32_t done, std::uint32_t total) { bar.update(done, total); }, &stop);
   }
   if (!baked) throw runtime_failure(call.output, "interrupted: nothing was written");
   silhouette::save_region_file(baked->file, call.output);
