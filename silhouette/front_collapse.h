@@ -27,12 +27,15 @@ class FrontCollapse : public OpenMesh::Decimater::BaseDecimaterT<CollapseMesh> {
 
  private:
   bool collapse_best(CollapseMesh::VertexHandle v);
+  bool keeps_topology(const CollapseInfo& info);
 
   OpenMesh::Decimater::ModHandleT<FrontFacingModule<CollapseMesh>> front_facing_;
   OpenMesh::Decimater::ModHandleT<DepthModule<CollapseMesh>> depth_;
   std::vector<std::uint8_t> touched_;  // per vertex: beside a collapse of this pass
   std::vector<std::uint8_t> stuck_;    // per vertex: nothing changed since no collapse was found
   std::vector<std::uint32_t> waiting_;
+  std::vector<std::uint32_t> ring_mark_;  // per vertex: the last ring it was in
+  std::uint32_t ring_ = 0;
   struct Candidate {
     float cost;
     CollapseMesh::HalfedgeHandle half_edge;
