@@ -27,6 +27,10 @@ struct CommandLine {
   BoardCall board;
   CalibrateCall calibrate;
   CurvatureCall curvature;
+  BakeCall bake;
+  MatteCall matte;
+  VerifyCall verify;
+  ScoreCall score;
 
   CommandLine() {
     app.name("rinkaku");
@@ -39,6 +43,10 @@ struct CommandLine {
     add_board();
     add_calibrate();
     add_curvature();
+    add_bake();
+    add_matte();
+    add_verify();
+    add_score();
   }
 
   CLI::App* add(const char* name, const char* description, const char* example, std::function<int()> command) {
@@ -136,6 +144,79 @@ struct CommandLine {
     add_force(sub, c.force);
     add_json(sub, c.json);
   }
+
+  void add_bake() {
+    BakeCall& c = bake;
+    CLI::App* sub =
+        add("bake", "Reduce a mesh for every region of eyes, so that its mattes stay the same to the last pixel.",
+            "rinkaku bake cat.obj -o cat.rgn", [&c] { return rinkaku::app::bake(c); });
+    sub->add_option("MESH", c.mesh, "Mesh file")->required();
+    sub->add_option("-o,--output", c.output, "Region file to write (.rgn)")->required();
+    sub->add_option("--cells", c.cells, "Cells along an edge of the cube around the object; 6 N^2 a shell")
+        ->check(CLI::Range(1, 64))
+        ->capture_default_str();
+    sub->add_option("--shells", c.shells, "Shells of cells, the outermost reaching to infinity")
+        ->check(CLI::Range(1, 16))
+        ->capture_default_str();
+    sub->add_option("--inner", c.inner_radii, "Where regions begin, in radii of the object; nearer, all of it is drawn")
+        ->check(CLI::Range(1.05, 100.0))
+        ->capture_default_str();
+    sub->add_option("--depth", c.depth_radii,
+                    "Add lists that keep the depth within this distance, in radii of the object; 0: none")
+        ->check(CLI::Range(0.0, 1.0))
+        ->capture_default_str();
+    add_force(sub, c.force);
+    add_json(sub, c.json);
+  }
+
+  void add_matte() {
+    MatteCall& c = matte;
+    CLI::App* sub = add("matte", "Draw which pixels of a picture a mesh covers.",
+                        "rinkaku matte cat.obj --regions cat.rgn --method region --eye 0,0,4 --target 0,0,0 -o cat.png",
+                        [&c] { return rinkaku::app::matte(c); });
+    sub->add_option("MESH", c.mesh, "Mesh file")->required();
+    sub->add_option("--regions", c.regions, "Region file that bake made of this mesh");
+    sub->add_option("--eye", c.eye, "Where the eye is: X,Y,Z in the mesh's own coordinates")->required();
+    sub->add_option("--target", c.target, "What it looks at: X,Y,Z")->required();
+    sub->add_option("--fov-deg", c.fov_deg, "Field of view over the picture's height")
+        ->check(CLI::Range(0.1, 170.0))
+        ->capture_default_str();
+    sub->add_option("--size", c.size, "The picture's size: WxH")->default_val("1280x720");
+    sub->add_option("--method", c.method, "What is drawn: all triangles, the region's, or one of the rivals' choices")
+        ->check(CLI::IsMember({"full", "region", "meshopt", "quadric", "cones"}))
+        ->default_val("full");
+    sub->add_option("--triangles", c.triangles, "For meshopt and quadric; as many as the region has if not given")
+        ->check(CLI::Range(std::int64_t{1}, std::int64_t{1'000'000'000}));
+    sub->add_option("-o,--output", c.output, "PNG to write: 255 where the mesh is, 0 elsewhere")->required();
+    add_force(sub, c.force);
+    add_json(sub, c.json);
+  }
+
+  void add_verify() {
+    VerifyCall& c = verify;
+    CLI::App* sub =
+        add("verify", "Compare a region file's mattes with the whole mesh's from many eyes; status 1 if any differs.",
+            "rinkaku verify cat.rgn --mesh cat.obj", [&c] { return rinkaku::app::verify(c); });
+    sub->add_option("REGIONS", c.regions, "Region file (.rgn)")->required();
+    sub->add_option("--mesh", c.mesh, "The mesh it was baked of")->required();
+    sub->add_option("--eyes", c.eyes, "How many eyes")
+        ->check(CLI::Range(std::int64_t{1}, std::int64_t{1'000'000'000}))
+        ->capture_default_str();
+    sub->add_option("--seed", c.seed, "Another number gives other eyes")
+        ->check(CLI::NonNegativeNumber)
+        ->capture_default_str();
+    sub->add_option("--size", c.size, "Size of all pictures: WxH; several from 640x480 to 3840x2160 if not given");
+    add_json(sub, c.json);
+  }
+
+  void add_score() {
+    ScoreCall& c = score;
+    CLI::App* sub = add("score", "Measure how far a matte is from the true one.", "rinkaku score matte.png truth.png",
+                        [&c] { return rinkaku::app::score(c); });
+    sub->add_option("MATTE", c.matte, "Grey picture, or one with alpha")->required();
+    sub->add_option("TRUTH", c.truth, "The same of the truth, of the same size")->required();
+    add_json(sub, c.json);
+  }
 };
 
 int say(std::string line, int status) {
@@ -148,11 +229,13 @@ int say(std::string line, int status) {
 
 // CLI11 would only say that a command is missing.
 void check_command(CLI::App& app, int argc, char** argv) {
-  const char* remedy = "give render, explain, inspect, board, calibrate or curvature, or see rinkaku --help";
+  const std::vector<CLI::App*> known = app.get_subcommands({});
+  std::string remedy = "give ";
+  for (const CLI::App* sub : known) remedy.append(sub->get_name()).append(", ");
+  remedy += "or see rinkaku --help";
   if (argc < 2) throw rinkaku::input_error("", "no command was given", remedy);
   const std::string command = argv[1];
   const auto named_so = [&command](const CLI::App* sub) { return sub->get_name() == command; };
-  const std::vector<CLI::App*> known = app.get_subcommands({});
   if (command.starts_with("-") || std::any_of(known.begin(), known.end(), named_so)) return;
   throw rinkaku::input_error("", "there is no command '" + command + "'", remedy);
 }

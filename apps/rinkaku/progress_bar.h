@@ -5,10 +5,12 @@
 
 namespace rinkaku::app {
 
-/// A bar on standard error that grows as frames are done; silent where standard error is no terminal.
+/// A bar on standard error that grows as frames, or what else is counted, are done; silent where standard error is no
+/// terminal.
 class ProgressBar {
  public:
-  ProgressBar();
+  /// `things` and `rate` must outlive the bar.
+  explicit ProgressBar(const char* things = "frames", const char* rate = "fps");
   /// Takes the bar off the line.
   ~ProgressBar();
   ProgressBar(const ProgressBar&) = delete;
@@ -19,6 +21,8 @@ class ProgressBar {
 
  private:
   using Clock = std::chrono::steady_clock;
+  const char* things_;
+  const char* rate_;
   bool on_terminal_;
   bool drawn_ = false;
   Clock::time_point start_, last_;

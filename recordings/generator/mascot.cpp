@@ -222,11 +222,11 @@ Mascot make_mascot() {
 
   const Implicit collar = [](glm::vec3 p) {
     const glm::vec3 q((p.x) / 1.04f, p.y - 0.405f + 0.12f * (p.z - 0.02f), (p.z - 0.015f) / 0.96f);
-    const glm::vec2 ring(glm::length(glm::vec2(q.x, q.z)) - 0.205f, q.y);
+    const glm::vec2 ring(glm::length(glm::vec2(q.x, q.z)) - 0.240f, q.y);
     return glm::length(ring) - 0.026f;
   };
-  append(mesh, mesh_surface(collar, {-0.26f, 0.30f, -0.26f}, {0.26f, 0.50f, 0.30f}, 0.0185f, Collar));
-  const glm::vec3 bell_at(0, 0.352f, 0.245f);
+  append(mesh, mesh_surface(collar, {-0.30f, 0.30f, -0.30f}, {0.30f, 0.50f, 0.34f}, 0.0185f, Collar));
+  const glm::vec3 bell_at(0, 0.348f, 0.280f);
   const Implicit bell = [bell_at](glm::vec3 p) { return glm::distance(p, bell_at) - 0.042f; };
   ColouredMesh bell_mesh = mesh_surface(bell, bell_at - 0.06f, bell_at + 0.06f, 0.0105f, Bell);
   paint(
