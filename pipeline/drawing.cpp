@@ -1,13 +1,17 @@
 #include "pipeline/drawing.h"
 
+#include <filesystem>
 #include <functional>
 #include <future>
+#include <map>
+#include <optional>
 #include <utility>
 
 #include <glm/vec3.hpp>
 
 #include "outline/pass/hull_pass.h"
 #include "pipeline/gl/context.h"
+#include "pipeline/in_parallel.h"
 #include "pipeline/passes/holdout/holdout_pass.h"
 #include "pipeline/passes/layer_renderer.h"
 #include "pipeline/passes/toon/band_borders.h"
@@ -44,8 +48,24 @@ struct PreparedObject {
   passes::ObjectShape shape;
 };
 
-PreparedObject prepare(const ObjectScene& object, const LightScene& light) {
-  mesh::Imported imported = load_mesh(object);
+mesh::Imported import_mesh(const ObjectScene& object) {
+  mesh::ImportOptions options;
+  options.crease_deg = object.crease_deg;
+  return mesh::import(object.mesh, options);
+}
+
+void give_colour(mesh::Mesh& mesh, const ObjectScene& object) {
+  if (!object.colour) return;
+  for (mesh::Material& material : mesh.materials) {
+    material.base_colour = glm::vec4(colour(*object.colour), material.base_colour.a);
+    material.texture = -1;
+  }
+  mesh.colours.clear();
+  mesh.textures.clear();
+}
+
+PreparedObject prepare(mesh::Imported imported, const ObjectScene& object, const LightScene& light) {
+  give_colour(imported.mesh, object);
   const mesh::Mesh& mesh = imported.mesh;
   const glm::dmat4 place = world_from_object(object, mesh::bounding_box(mesh.positions), imported.summary.up);
   const passes::ToonOptions toon = toon_options(object, light);
@@ -53,19 +73,30 @@ PreparedObject prepare(const ObjectScene& object, const LightScene& light) {
   return {std::move(imported), toon, std::move(shape)};
 }
 
+// Objects of one file share its import, which takes a process.
+std::vector<std::optional<PreparedObject>> prepare_all(const Scene& scene) {
+  std::map<std::pair<std::filesystem::path, double>, std::size_t> known;
+  std::vector<const ObjectScene*> distinct;
+  std::vector<std::size_t> import_of;
+  for (const ObjectScene& object : scene.objects) {
+    const auto [at, added] = known.try_emplace({object.mesh, object.crease_deg}, distinct.size());
+    if (added) distinct.push_back(&object);
+    import_of.push_back(at->second);
+  }
+  std::vector<mesh::Imported> imported(distinct.size());
+  in_parallel(distinct.size(), [&](std::size_t i) { imported[i] = import_mesh(*distinct[i]); });
+  std::vector<std::optional<PreparedObject>> prepared(scene.objects.size());
+  in_parallel(prepared.size(), [&](std::size_t i) {
+    prepared[i].emplace(prepare(imported[import_of[i]], scene.objects[i], scene.light));
+  });
+  return prepared;
+}
+
 }  // namespace
 
 mesh::Imported load_mesh(const ObjectScene& object) {
-  mesh::ImportOptions options;
-  options.crease_deg = object.crease_deg;
-  mesh::Imported imported = mesh::import(object.mesh, options);
-  if (object.colour) {
-    for (mesh::Material& material : imported.mesh.materials) {
-      material.base_colour = glm::vec4(colour(*object.colour), material.base_colour.a);
-      material.texture = -1;
-    }
-    imported.mesh.colours.clear();
-  }
+  mesh::Imported imported = import_mesh(object);
+  give_colour(imported.mesh, object);
   return imported;
 }
 
@@ -77,16 +108,14 @@ Drawing::~Drawing() {
 }
 
 Drawing make_drawing(const Scene& scene, const passes::PixelRect& picture) {
-  std::vector<std::future<PreparedObject>> preparing;
-  for (const ObjectScene& object : scene.objects) {
-    preparing.push_back(std::async(std::launch::async, prepare, std::cref(object), std::cref(scene.light)));
-  }
+  auto preparing = std::async(std::launch::async, prepare_all, std::cref(scene));
   Drawing drawing;
   drawing.context = gl::Context::headless();
+  std::vector<std::optional<PreparedObject>> all = preparing.get();
   std::vector<passes::StyledObject> styled;
-  for (std::size_t i = 0; i < preparing.size(); ++i) {
+  for (std::size_t i = 0; i < all.size(); ++i) {
     const ObjectScene& object = scene.objects[i];
-    PreparedObject prepared = preparing[i].get();
+    PreparedObject& prepared = *all[i];
     for (const std::string& warning : prepared.imported.summary.warnings) {
       drawing.notices.push_back(object.mesh.string() + ": " + warning);
     }

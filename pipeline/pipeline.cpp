@@ -21,17 +21,20 @@ namespace {
 
 using Group = Line::Group;
 
-// The frames asked for, until there are none or `stop` says so. `seen` counts those before them as well.
-Line::Decode decoder(source::Source& source, const RenderOptions& options, const std::atomic<bool>& stop,
-                     std::int64_t& seen) {
+// Decodes up to the first frame asked for, so that it isn't timed as that one's; returns how many frames came before.
+std::int64_t skip_to(source::Source& source, std::int64_t first_frame, const std::atomic<bool>& stop) {
+  std::int64_t skipped = 0;
+  while (skipped < first_frame && !stop && source.next()) ++skipped;
+  return skipped;
+}
+
+// The frames from here on, until there are none, or the end, or `stop` says so.
+Line::Decode decoder(source::Source& source, const RenderOptions& options, const std::atomic<bool>& stop) {
   return [&]() -> std::optional<Work> {
-    while (!stop) {
-      std::optional<Frame> frame = source.next();
-      if (!frame || frame->number >= options.end_frame) break;
-      ++seen;
-      if (frame->number >= options.first_frame) return Work{std::move(*frame), std::nullopt, {}};
-    }
-    return std::nullopt;
+    if (stop) return std::nullopt;
+    std::optional<Frame> frame = source.next();
+    if (!frame || frame->number >= options.end_frame) return std::nullopt;
+    return Work{std::move(*frame), std::nullopt, {}};
   };
 }
 
@@ -111,14 +114,14 @@ RenderReport render(const Prepared& prepared, const RenderOptions& options, cons
 
   const auto start = std::chrono::steady_clock::now();
   const std::int64_t total = frames_expected(described, options);
-  std::int64_t seen = 0;
-  result.frames = line.run(decoder(*source, options, stop, seen), [&, done = std::int64_t{0}]() mutable {
+  const std::int64_t skipped = skip_to(*source, options.first_frame, stop);
+  result.frames = line.run(decoder(*source, options, stop), [&, done = std::int64_t{0}]() mutable {
     if (progress) progress(++done, total);
   });
   result.interrupted = stop;
 
   if (result.frames == 0 && !result.interrupted) {
-    throw no_frame_error(described, options, seen);
+    throw no_frame_error(described, options, skipped);
   }
   if (plan.runs("draw") && result.frames > 0 && result.posed_frames == 0 && !result.interrupted) {
     throw no_pose_error(prepared, described, result.frames);

@@ -45,6 +45,9 @@ track::PrintOptions page_size(const std::string& page) {
 }  // namespace
 
 int board(const BoardCall& call) {
+  if (!call.output.ends_with(".pdf") && !call.output.ends_with(".PDF")) {
+    throw input_error(call.output, "a board is written as PDF", "give a name that ends in .pdf");
+  }
   const track::PrintOptions options = page_size(call.page);
   const WholeFile checked(call.output, call.force);
   const track::Board read = track::read_board(call.board);

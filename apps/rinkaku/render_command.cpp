@@ -65,8 +65,9 @@ nlohmann::json to_json(const pipeline::RenderReport& report) {
 
 void print_summary(const pipeline::RenderReport& report, bool to_standard_output) {
   std::FILE* out = to_standard_output ? stdout : stderr;
-  std::fprintf(out, "%s: %lld frames of %dx%d in %.1f s (%.1f fps)%s\n", report.output.c_str(),
-               static_cast<long long>(report.frames), report.width_px, report.height_px, report.seconds,
+  std::fprintf(out, "%s: %lld %s of %dx%d in %.1f s (%.1f fps)%s\n", report.output.c_str(),
+               static_cast<long long>(report.frames), report.frames == 1 ? "frame" : "frames", report.width_px,
+               report.height_px, report.seconds,
                report.seconds > 0 ? static_cast<double>(report.frames) / report.seconds : 0.0,
                report.interrupted ? ", interrupted" : "");
 }

@@ -15,10 +15,21 @@ bool look_alike(const mesh::Material& a, const mesh::Material& b) {
   return a.base_colour == b.base_colour && a.texture == b.texture && a.alpha == b.alpha;
 }
 
+// Whether the two sides are shaded by normals of their own.
+bool is_crease(const mesh::Mesh& mesh, const mesh::Edge& edge) {
+  constexpr float least_cos = 0.99f;  // 8 degrees: less is not seen as an edge
+  for (const std::uint32_t point : {edge.a, edge.b}) {
+    const glm::vec3& n0 = mesh.normals[mesh::corner_at(mesh, edge.face0, point)];
+    const glm::vec3& n1 = mesh.normals[mesh::corner_at(mesh, edge.face1, point)];
+    if (glm::dot(n0, n1) < least_cos) return true;
+  }
+  return false;
+}
+
 // In the object's coordinates, of length 1: in the triangle's plane, at right angles to the edge in the world, away
 // from the edge.
 glm::dvec3 across(const mesh::Topology& topology, const mesh::Edge& edge, std::uint32_t face,
-                  const glm::dmat3& world_from_object) {
+                  const glm::dmat3& world_from_object, const glm::dmat3& object_from_world) {
   const glm::uvec3& f = topology.faces[face];
   const std::uint32_t opposite = f.x + f.y + f.z - edge.a - edge.b;
   const glm::dvec3 a = world_from_object * glm::dvec3(topology.points[edge.a]);
@@ -26,7 +37,7 @@ glm::dvec3 across(const mesh::Topology& topology, const mesh::Edge& edge, std::u
   const glm::dvec3 to = world_from_object * glm::dvec3(topology.points[opposite]) - a;
   const double squared = glm::dot(along, along);
   const glm::dvec3 upright = squared > 0 ? to - along * (glm::dot(to, along) / squared) : to;
-  const glm::dvec3 direction = glm::inverse(world_from_object) * upright;
+  const glm::dvec3 direction = object_from_world * upright;
   const double length = glm::length(direction);
   return length > 0 ? direction / length : glm::dvec3(0);
 }
@@ -34,7 +45,7 @@ glm::dvec3 across(const mesh::Topology& topology, const mesh::Edge& edge, std::u
 }  // namespace
 
 BorderStrips::BorderStrips(const mesh::Mesh& mesh, const mesh::Topology& topology,
-                           std::span<const ShapeVertex> vertices, const glm::dmat4& world_from_object) {
+                           std::span<const ShapeVertex> vertices, const glm::dmat4& world_from_object, bool creases) {
   std::vector<std::uint32_t> part_of(mesh.triangles.size());
   for (std::uint32_t p = 0; p < mesh.parts.size(); ++p) {
     std::fill_n(part_of.begin() + mesh.parts[p].first_triangle, mesh.parts[p].triangle_count, p);
@@ -47,14 +58,16 @@ BorderStrips::BorderStrips(const mesh::Mesh& mesh, const mesh::Topology& topolog
   for (std::uint32_t e = 0; e < two_faced; ++e) {
     const mesh::Edge& edge = topology.edges[e];
     const mesh::Part &part0 = mesh.parts[part_of[edge.face0]], &part1 = mesh.parts[part_of[edge.face1]];
-    if (look_alike(mesh.materials[part0.material], mesh.materials[part1.material])) continue;
+    const bool alike = look_alike(mesh.materials[part0.material], mesh.materials[part1.material]);
+    if (alike && !(creases && is_crease(mesh, edge))) continue;
     borders.push_back({part_of[edge.face0], e, edge.face0, edge.face1});
     borders.push_back({part_of[edge.face1], e, edge.face1, edge.face0});
   }
   std::stable_sort(borders.begin(), borders.end(), [](const Border& a, const Border& b) { return a.part < b.part; });
+  const glm::dmat3 linear(world_from_object), inverse(glm::inverse(linear));
   for (const Border& border : borders) {
     const mesh::Edge& edge = topology.edges[border.edge];
-    std::array<std::int16_t, 4> direction = snorm(across(topology, edge, border.over, glm::dmat3(world_from_object)));
+    std::array<std::int16_t, 4> direction = snorm(across(topology, edge, border.over, linear, inverse));
     direction[3] = 32767 / 2;  // half a pixel over either side
     for (std::int16_t rim : {0, 32767}) {
       for (std::uint32_t point : {edge.a, edge.b}) {
@@ -67,6 +80,10 @@ BorderStrips::BorderStrips(const mesh::Mesh& mesh, const mesh::Topology& topolog
   }
   indices_.reserve(quads_.size() * 6);
   runs_.reserve(mesh.parts.size());
+}
+
+void BorderStrips::mark_triangles(std::vector<std::uint8_t>& mask) const {
+  for (const Quad& quad : quads_) mask[quad.face0] = mask[quad.face1] = 1;
 }
 
 void BorderStrips::collect(const mesh::Contour& contour) {

@@ -19,12 +19,15 @@ namespace rinkaku::passes {
 /// GL.
 class BorderStrips {
  public:
-  /// `vertices` are the mesh's. Keeps neither mesh nor topology.
+  /// `vertices` are the mesh's. `creases`: also along edges that are shaded hard. Keeps neither mesh nor topology.
   BorderStrips(const mesh::Mesh& mesh, const mesh::Topology& topology, std::span<const ShapeVertex> vertices,
-               const glm::dmat4& world_from_object);
+               const glm::dmat4& world_from_object, bool creases);
 
   /// Lists the quads whose two triangles both face the eye. Allocates nothing once warm.
   void collect(const mesh::Contour& contour);
+
+  /// Marks (1) the triangles on either side, by number.
+  void mark_triangles(std::vector<std::uint8_t>& mask) const;
 
   std::span<const BorderVertex> vertices() const { return vertices_; }  ///< the same in every frame
   std::span<const std::uint32_t> indices() const { return indices_; }

@@ -32,10 +32,14 @@ bool LayerRenderer::draw(const View& view, Layer& layer) {
     const Look& look = styled.object->look(view, picture_);
     if (!look.visible) continue;
     double reach = 0;
-    for (const auto& pass : styled.passes) reach = std::max(reach, pass->reach_px());
+    bool leaves_colour = false;
+    for (const auto& pass : styled.passes) {
+      reach = std::max(reach, pass->reach_px());
+      leaves_colour = leaves_colour || pass->leaves_colour();
+    }
     const PixelRect rect = intersection(grown(look.bounds, static_cast<int>(std::ceil(reach)) + 1), picture_);
     if (rect.empty()) continue;
-    layer.rect = united(layer.rect, rect);
+    if (leaves_colour) layer.rect = united(layer.rect, rect);
     visible_.push_back({&styled, look.distance_m});
   }
   if (layer.rect.empty()) return false;

@@ -23,12 +23,13 @@ glm::mat4 pixels_from_object(const View& view, const glm::dmat4& world_from_obje
 
 // What levels of detail must keep: uneven triangles, and those that cut each other, so that the line they meet in stays
 // where it is.
+// Which triangles levels of detail must keep as they are.
 std::vector<std::uint8_t> kept(std::span<const std::uint8_t> uneven, std::span<const mesh::Cut> cuts,
-                               std::size_t triangles) {
+                               const BorderStrips& borders, std::size_t triangles) {
   std::vector<std::uint8_t> mask(uneven.begin(), uneven.end());
-  if (cuts.empty()) return mask;
   mask.resize(triangles);
   for (const mesh::Cut& cut : cuts) mask[cut.faces[0]] = mask[cut.faces[1]] = 1;
+  borders.mark_triangles(mask);
   return mask;
 }
 
@@ -49,12 +50,14 @@ ObjectShape::ObjectShape(const mesh::Mesh& mesh, const glm::dmat4& world_from_ob
   for (const mesh::Part& part : mesh.parts) two_sided_ = two_sided_ || mesh.materials[part.material].two_sided;
   collect_vertices(mesh, topology);
   strips_.emplace(mesh, topology, two_sided_);
-  borders_.emplace(mesh, topology, vertices_, world_from_object);
+  // Unlit, the two sides of a crease have one colour.
+  borders_.emplace(mesh, topology, vertices_, world_from_object, !uneven.empty());
   const std::vector<mesh::Cut> cuts = mesh::intersections(topology);
   intersections_.emplace(mesh, topology, cuts, world_from_object);
   whole_.emplace(mesh, topology);
-  levels_.emplace(mesh, kept(uneven, cuts, mesh.triangles.size()));
-  level_finders_.resize(levels_->count());
+  levels_.emplace(mesh, kept(uneven, cuts, *borders_, mesh.triangles.size()));
+  made_levels_.resize(levels_->count());
+  triangles_ = mesh.triangles.size();
   if (levels_->count() == 0) return;
   outlook_.positions = mesh.positions;
   outlook_.welded = mesh.welded;
@@ -98,13 +101,13 @@ const Look& ObjectShape::look(const View& view, const PixelRect& picture) {
   const RigidTransform world_from_camera = inverse(view.camera_from_world);
   look_.distance_m = glm::length(centre_ - world_from_camera.translation_m);
   const glm::dvec3 eye = glm::dvec3(object_from_world_ * glm::dvec4(world_from_camera.translation_m, 1.0));
-  const std::size_t level = level_for(view);
-  const bool whole = level == 0;
+  mesh::ContourFinder* const level = finder_for(view);
+  const bool whole = level == nullptr;
   const mesh::Contour& contour = whole_->find(eye, {.front = whole, .edges = true});
   if (whole) {
     list_front(contour, false);
   } else {
-    list_front(level_finder(level - 1).find(eye, {.front = true, .edges = false}), true);
+    list_front(level->find(eye, {.front = true, .edges = false}), true);
     // The level's error is of the kind of a mean, so allow for more.
     look_.overlap_px = 1.5f;
   }
@@ -122,27 +125,31 @@ const Look& ObjectShape::look(const View& view, const PixelRect& picture) {
   return look_;
 }
 
-// 0 for the whole mesh, else the level's number and 1.
-std::size_t ObjectShape::level_for(const View& view) const {
+// Null for the whole mesh.
+mesh::ContourFinder* ObjectShape::finder_for(const View& view) {
   // What changes in colour stays as it is and the contour is exact, so this shows only where the object hides itself.
   constexpr double most_px = 1.0;
-  if (look_.crosses_eye_plane) return 0;
+  if (look_.crosses_eye_plane) return nullptr;
   // The most that one of the mesh's units takes, along the axis that is stretched most.
   const double px_per_unit = view.camera.fx_px * largest_scale_ / nearest_m_;
   std::size_t level = 0;
   while (level < levels_->count() && levels_->most_error(level) * px_per_unit <= most_px) ++level;
-  return level;
+  return level == 0 ? nullptr : level_finder(level - 1);
 }
 
-mesh::ContourFinder& ObjectShape::level_finder(std::size_t level) {
-  std::optional<mesh::ContourFinder>& finder = level_finders_[level];
-  if (!finder) {
+mesh::ContourFinder* ObjectShape::level_finder(std::size_t level) {
+  // Where most is kept, a level only makes the feather reach further in.
+  constexpr double most_left = 0.85;
+  MadeLevel& found = made_levels_[level];
+  if (!found.made) {
+    found.made = true;
     mesh::Level made = levels_->make(level);
+    if (static_cast<double>(made.triangles.size()) > most_left * static_cast<double>(triangles_)) return nullptr;
     outlook_.triangles = std::move(made.triangles);
     outlook_.parts = std::move(made.parts);
-    finder.emplace(outlook_, mesh::topology(outlook_));
+    found.finder.emplace(outlook_, mesh::topology(outlook_));
   }
-  return *finder;
+  return found.finder ? &*found.finder : nullptr;
 }
 
 void ObjectShape::list_front(const mesh::Contour& found, bool split) {

@@ -73,8 +73,8 @@ class ObjectShape {
 
  private:
   void find_bounds(const glm::mat4& pixels_from_object, const PixelRect& picture);
-  std::size_t level_for(const View& view) const;
-  mesh::ContourFinder& level_finder(std::size_t level);
+  mesh::ContourFinder* finder_for(const View& view);
+  mesh::ContourFinder* level_finder(std::size_t level);
   void list_front(const mesh::Contour& found, bool split);
   void collect_vertices(const mesh::Mesh& mesh, const mesh::Topology& topology);
 
@@ -91,7 +91,12 @@ class ObjectShape {
   std::optional<mesh::ContourFinder> whole_;
   mesh::Mesh outlook_;  // what a level's finder needs of the mesh, its triangles and parts to be filled in
   std::optional<mesh::Levels> levels_;
-  std::vector<std::optional<mesh::ContourFinder>> level_finders_;  // made when first needed
+  struct MadeLevel {
+    bool made = false;
+    std::optional<mesh::ContourFinder> finder;  // none: the level is not worth it
+  };
+  std::vector<MadeLevel> made_levels_;   // when first needed
+  std::size_t triangles_ = 0;            // of the whole mesh
   std::optional<ContourStrips> strips_;  // made once it is known whether the object is two-sided
   std::optional<BorderStrips> borders_;
   std::optional<IntersectionStrips> intersections_;

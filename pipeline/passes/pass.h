@@ -30,6 +30,8 @@ class ObjectPass {
   virtual const char* name() const = 0;
   /// How far beyond the mesh it draws, in pixels.
   virtual double reach_px() const = 0;
+  /// False if it only takes away what others drew: then nothing is drawn where no other object is.
+  virtual bool leaves_colour() const { return true; }
   /// Draws what is opaque: blending off, depth written.
   virtual void draw_surface(const DrawCall& call) = 0;
   /// Draws the feathers: blending on (premultiplied), depth tested but not written, which must hold again afterwards.

@@ -128,7 +128,8 @@ TEST_F(Framing, MirroredObjectIsDrawnRight) {
   for (std::size_t i = 0; i < plain.rgba.size(); ++i) {
     const std::size_t alpha = i / 4 * 4 + 3;
     if (plain.rgba[alpha] < 255 || mirrored.rgba[alpha] < 255) continue;
-    ASSERT_EQ(plain.rgba[i], mirrored.rgba[i]) << i;
+    // Along inner edges the feathers of both sides are blended in turn, and 8 bits round each time.
+    ASSERT_NEAR(plain.rgba[i], mirrored.rgba[i], 2) << i;
   }
   EXPECT_NEAR(area_px(plain) / area_px(mirrored), 1, 0.002);
   EXPECT_GT(area_px(plain), 3000);
