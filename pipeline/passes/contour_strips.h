@@ -27,17 +27,19 @@ class ContourStrips {
   std::span<const std::uint32_t> indices() const { return indices_; }
   std::span<const Run> runs() const { return runs_; }
 
+  /// An edge of this frame's contour, in the direction in which the face that is seen runs along it.
+  struct Piece {
+    std::uint32_t part, from, to;  ///< `from` and `to` are vertices of the mesh
+    bool from_behind;              ///< as the border of an open surface may be seen
+  };
+  std::span<const Piece> pieces() const { return pieces_; }
+
  private:
   struct EdgeVertices {
     std::uint32_t a0, b0, a1, b1;  // as face0 and face1 have them
     std::uint32_t part0, part1;
     std::uint32_t face0, face1;
     bool always_hidden;
-  };
-  // An edge of this frame's contour, in the direction in which the face that is seen runs along it.
-  struct Piece {
-    std::uint32_t part, from, to;
-    bool from_behind;  // as the border of an open surface may be seen
   };
   void collect_pieces(const mesh::Contour& contour);
   void emit(std::span<const ShapeVertex> vertices, const Piece& piece);

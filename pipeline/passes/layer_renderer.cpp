@@ -32,7 +32,7 @@ bool LayerRenderer::draw(const View& view, Layer& layer) {
     const Look& look = styled.object->look(view, picture_);
     if (!look.visible) continue;
     double reach = 0;
-    for (const auto& pass : styled.passes) reach = std::max(reach, pass->reach_px());
+    for (const auto& pass : styled.passes) reach = std::max(reach, pass->reach_px(view));
     const PixelRect rect = intersection(grown(look.bounds, static_cast<int>(std::ceil(reach)) + 1), picture_);
     if (rect.empty()) continue;
     layer.rect = united(layer.rect, rect);

@@ -49,6 +49,7 @@ ObjectShape::ObjectShape(const mesh::Mesh& mesh, const glm::dmat4& world_from_ob
   for (const mesh::Part& part : mesh.parts) two_sided_ = two_sided_ || mesh.materials[part.material].two_sided;
   collect_vertices(mesh, topology);
   strips_.emplace(mesh, topology, two_sided_);
+  lines_.emplace(mesh, topology, mirrored_);
   borders_.emplace(mesh, topology, vertices_, world_from_object);
   levels_.push_back({0, mesh::ContourFinder(mesh, topology), false});
   mesh::Mesh coarse = mesh;
@@ -109,10 +110,21 @@ const Look& ObjectShape::look(const View& view, const PixelRect& picture) {
   look_.strip_vertices = strips_->vertices();
   look_.strip_indices = strips_->indices();
   look_.strip_runs = strips_->runs();
+  if (asked_for_lines_) {
+    lines_->collect(strips_->pieces(), vertices_, to_pixels, view.camera);
+    look_.line_vertices = lines_->vertices();
+    look_.line_indices = lines_->indices();
+    look_.line_push = lines_->largest_push();
+  }
   borders_->collect(contour);
   look_.border_indices = borders_->indices();
   look_.border_runs = borders_->runs();
   return look_;
+}
+
+void ObjectShape::ask_for_lines(std::span<const float> factors) {
+  asked_for_lines_ = true;
+  lines_->set_factors(factors);
 }
 
 ObjectShape::Level& ObjectShape::level_for(const View& view) {
@@ -120,7 +132,7 @@ ObjectShape::Level& ObjectShape::level_for(const View& view) {
   constexpr double most_px = 1.0;
   if (look_.crosses_eye_plane) return levels_.front();
   // The most that one of the mesh's units takes, along the axis that is stretched most.
-  const double px_per_unit = view.camera.fx_px * largest_scale_ / nearest_m_;
+  const double px_per_unit = view.camera.fx_px * largest_scale_ / look_.nearest_m;
   std::size_t level = 0;
   while (level + 1 < levels_.size() && levels_[level + 1].error * px_per_unit <= most_px) ++level;
   return levels_[level];
@@ -155,7 +167,7 @@ void ObjectShape::find_bounds(const glm::mat4& to_pixels, const PixelRect& pictu
     farthest = depth > farthest ? depth : farthest;
   }
   if (!(farthest > near_m)) return;  // behind the camera, or no point at all
-  nearest_m_ = nearest;
+  look_.nearest_m = nearest;
   look_.crosses_eye_plane = !(nearest > near_m);
   if (look_.crosses_eye_plane) {
     look_.bounds = picture;

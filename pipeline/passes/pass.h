@@ -31,8 +31,8 @@ class ObjectPass {
   virtual ~ObjectPass() = default;
 
   virtual const char* name() const = 0;
-  /// How far beyond the mesh it draws, in pixels.
-  virtual double reach_px() const = 0;
+  /// How far beyond the mesh it draws in this frame, in pixels of the pinhole picture; the object has looked.
+  virtual double reach_px(const View& view) const = 0;
   /// Draws what is opaque: blending off, depth written.
   virtual void draw_surface(const DrawCall& call) = 0;
   /// Draws the feathers: blending on (premultiplied), depth tested but not written, which must hold again afterwards.

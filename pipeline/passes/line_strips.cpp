@@ -1,0 +1,180 @@
+#include "pipeline/passes/line_strips.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+namespace rinkaku::passes {
+namespace {
+
+// Per point, from 0 where its faces' normals are nearly its outline normal to 1 where one of them is far from it.
+std::vector<float> hardness(const mesh::Topology& topology) {
+  constexpr float smooth = 0.966f, hard = 0.819f;  // cosines of 15 and 35 degrees
+  std::vector<float> least(topology.points.size(), 1.0f);
+  for (std::size_t f = 0; f < topology.faces.size(); ++f) {
+    const glm::vec3 normal = topology.turned[f] != 0 ? -topology.face_normals[f] : topology.face_normals[f];
+    if (normal == glm::vec3(0)) continue;
+    for (int k = 0; k < 3; ++k) {
+      const std::uint32_t p = topology.faces[f][k];
+      least[p] = std::min(least[p], glm::dot(normal, topology.outline_normals[p]));
+    }
+  }
+  for (float& cosine : least) cosine = 1 - glm::smoothstep(hard, smooth, cosine);
+  return least;
+}
+
+std::int16_t snorm(float f) { return static_cast<std::int16_t>(std::lround(std::clamp(f, -1.0f, 1.0f) * 32767.0f)); }
+
+glm::vec2 unit(const glm::vec2& v) {
+  const float length = glm::length(v);
+  return length > 0 ? v / length : glm::vec2(0);
+}
+
+}  // namespace
+
+LineStrips::LineStrips(const mesh::Mesh& mesh, const mesh::Topology& topology, bool mirrored)
+    : mirrored_(mirrored),
+      welded_(mesh.welded),
+      hard_(hardness(topology)),
+      factors_(topology.points.size(), 1.0f),
+      place_of_(topology.points.size(), 0) {}
+
+void LineStrips::set_factors(std::span<const float> factors) {
+  factors_.assign(factors.begin(), factors.end());
+  factors_.resize(hard_.size(), 1.0f);
+  largest_factor_ = factors_.empty() ? 1.0f : *std::max_element(factors_.begin(), factors_.end());
+}
+
+std::uint32_t LineStrips::place_at(std::uint32_t vertex, std::span<const ShapeVertex> vertices,
+                                   const glm::mat4& to_pixels) {
+  const std::uint32_t point = welded_[vertex];
+  const std::uint32_t known = place_of_[point];
+  if (known < places_.size() && places_[known].point == point) return known;
+  const ShapeVertex& v = vertices[vertex];
+  Place place;
+  place.point = point;
+  place.position = v.position;
+  place.seen = glm::vec3(to_pixels * glm::vec4(v.position, 1));
+  const glm::vec3 n(to_pixels * glm::vec4(v.outline_normal[0], v.outline_normal[1], v.outline_normal[2], 0));
+  const float z = place.seen.z;
+  // Which way the pixel moves when the point moves along its normal.
+  place.normal = unit(glm::vec2(n) * z - glm::vec2(place.seen) * n.z);
+  place.shortest_px = 1e30f;
+  place_of_[point] = static_cast<std::uint32_t>(places_.size());
+  places_.push_back(place);
+  return place_of_[point];
+}
+
+void LineStrips::find_push(Place& place) const {
+  // Edges shorter than this count less: where a contour zigzags over small triangles, corners say nothing.
+  constexpr float full_px = 3;
+  place.push = {place.normal, place.normal};
+  const float hard = hard_[place.point];
+  if (hard == 0 || place.ends == 0) return;
+  const glm::vec2 first = place.outwards[0], second = place.outwards[1];
+  if (place.ends != 2) {
+    // An end, or several lines through one point: along the normal, as far as fits them on average.
+    const float cosine = place.along_normal / static_cast<float>(place.ends);
+    const glm::vec2 push = place.ends == 1 ? first : place.normal * (1 / std::clamp(cosine, 1 / kMiterLimit, 1.0f));
+    place.push[0] = place.push[1] = glm::mix(place.normal, push, hard);
+    return;
+  }
+  const float agree = glm::dot(first, second);
+  const float weight = hard * std::max(glm::smoothstep(0.7f, 0.9f, agree), std::min(place.shortest_px / full_px, 1.0f));
+  const glm::vec2 sum = first + second;
+  if ((1 + agree) * kMiterLimit * kMiterLimit >= 2) {
+    const glm::vec2 miter = sum / (1 + agree);
+    place.push[0] = place.push[1] = glm::mix(place.normal, miter, weight);
+    return;
+  }
+  // To where each edge's offset meets the cut, which is at right angles to the bisector.
+  const glm::vec2 apart = first - second;
+  glm::vec2 bisector = unit(glm::vec2(-apart.y, apart.x));
+  const bool sum_is_clear = glm::dot(sum, sum) > 1e-6f;
+  if (glm::dot(bisector, sum_is_clear ? sum : place.normal) < 0) bisector = -bisector;
+  for (int k = 0; k < 2; ++k) {
+    const glm::vec2 n = place.outwards[static_cast<std::size_t>(k)];
+    const glm::vec2 onwards = bisector - n * glm::dot(n, bisector);
+    const float rise = glm::dot(onwards, bisector);
+    const glm::vec2 cut = n + onwards * ((kMiterLimit - glm::dot(n, bisector)) / std::max(rise, 1e-6f));
+    place.push[static_cast<std::size_t>(k)] = glm::mix(place.normal, cut, weight);
+  }
+  place.cut = weight > 0;
+}
+
+void LineStrips::undo_lens(Place& place, const CameraModel& camera) const {
+  const float z = place.seen.z;
+  if (!(z > 0)) return;
+  const glm::dvec2 pixel = glm::dvec2(place.seen) / static_cast<double>(z);
+  const glm::dvec2 here = to_normalised(camera, pixel);
+  const glm::dvec2 there = to_normalised(camera, pixel + glm::dvec2(unit(place.push[0] + place.push[1])));
+  const glm::dvec2 moved = distort(camera, there) - distort(camera, here);
+  const double plate_px = glm::length(moved * glm::dvec2(camera.fx_px, camera.fy_px));
+  // Beyond where the lens folds its formula means nothing.
+  place.stretch = static_cast<float>(plate_px > 0.25 && plate_px < 4 ? 1 / plate_px : 1);
+}
+
+std::uint32_t LineStrips::add(const Place& place, const glm::vec2& push, bool rim) {
+  constexpr float scale = 1 / LineVertex::most_push;
+  const glm::vec2 stretched = push * place.stretch;
+  largest_push_ = std::max(largest_push_, glm::length(stretched));
+  line_vertices_.push_back({place.position,
+                            {snorm(stretched.x * scale), snorm(stretched.y * scale),
+                             snorm(factors_[place.point] / largest_factor_), snorm(rim ? 1.0f : 0.0f)}});
+  return static_cast<std::uint32_t>(line_vertices_.size() - 1);
+}
+
+void LineStrips::collect(std::span<const ContourStrips::Piece> pieces, std::span<const ShapeVertex> vertices,
+                         const glm::mat4& to_pixels, const CameraModel& camera) {
+  places_.clear();
+  lines_.clear();
+  line_vertices_.clear();
+  indices_.clear();
+  largest_push_ = 1;
+  for (const ContourStrips::Piece& piece : pieces) {
+    Line line{place_at(piece.from, vertices, to_pixels), place_at(piece.to, vertices, to_pixels), 0, 0};
+    Place &from = places_[line.from], &to = places_[line.to];
+    // The way on the screen from the one end to the other, also if one of them lies behind the eye.
+    const glm::vec2 way = glm::vec2(to.seen) * from.seen.z - glm::vec2(from.seen) * to.seen.z;
+    const float length = glm::length(way), length_px = length / std::abs(from.seen.z * to.seen.z);
+    constexpr float least_px = 1e-3f;  // shorter ones are mostly rounding
+    if (length_px > least_px) {
+      // Faces run anticlockwise as seen from outside, so their outside is to the right; rows run downwards.
+      const float side = mirrored_ != piece.from_behind ? 1.0f : -1.0f;
+      const glm::vec2 outwards = glm::vec2(way.y, -way.x) * (side / length);
+      const auto meet = [&](Place& place) {
+        const int end = place.ends++;
+        if (end < 2) place.outwards[static_cast<std::size_t>(end)] = outwards;
+        place.shortest_px = std::min(place.shortest_px, length_px);
+        place.along_normal += glm::dot(outwards, place.normal);
+        return static_cast<std::uint8_t>(std::min(end, 1));
+      };
+      line.from_end = meet(from);
+      line.to_end = meet(to);
+    }
+    lines_.push_back(line);
+  }
+  const bool lens = camera.has_distortion();
+  for (Place& place : places_) {
+    find_push(place);
+    if (lens) undo_lens(place, camera);
+  }
+  for (const Line& line : lines_) {
+    const Place &from = places_[line.from], &to = places_[line.to];
+    const glm::vec2 &at_from = from.push[line.from_end], &at_to = to.push[line.to_end];
+    const std::uint32_t base = add(from, at_from, false);
+    add(to, at_to, false);
+    add(from, at_from, true);
+    add(to, at_to, true);
+    for (std::uint32_t corner : {0u, 1u, 2u, 2u, 1u, 3u}) indices_.push_back(base + corner);
+  }
+  for (const Place& place : places_) {
+    if (!place.cut) continue;
+    indices_.push_back(add(place, (place.push[0] + place.push[1]) * 0.5f, false));
+    for (const glm::vec2& push : place.push) indices_.push_back(add(place, push, true));
+  }
+}
+
+}  // namespace rinkaku::passes
