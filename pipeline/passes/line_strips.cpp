@@ -5,6 +5,7 @@
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
 
 namespace rinkaku::passes {
 namespace {
@@ -27,6 +28,17 @@ std::vector<float> hardness(const mesh::Topology& topology) {
 
 std::int16_t snorm(float f) { return static_cast<std::int16_t>(std::lround(std::clamp(f, -1.0f, 1.0f) * 32767.0f)); }
 
+// How the lens moves a pixel of the plate when the pixel of the pinhole picture moves.
+glm::mat2 lens_around(const glm::vec3& seen, const CameraModel& camera) {
+  if (!(seen.z > 0)) return glm::mat2(1);
+  const glm::dvec2 pixel = glm::dvec2(seen) / static_cast<double>(seen.z);
+  const auto shown = [&](const glm::dvec2& p) { return to_pixels(camera, distort(camera, to_normalised(camera, p))); };
+  const glm::dvec2 here = shown(pixel);
+  const glm::mat2 lens(shown(pixel + glm::dvec2(1, 0)) - here, shown(pixel + glm::dvec2(0, 1)) - here);
+  // Beyond where the lens folds its formula means nothing.
+  return glm::determinant(lens) > 0.1f ? lens : glm::mat2(1);
+}
+
 glm::vec2 unit(const glm::vec2& v) {
   const float length = glm::length(v);
   return length > 0 ? v / length : glm::vec2(0);
@@ -48,7 +60,7 @@ void LineStrips::set_factors(std::span<const float> factors) {
 }
 
 std::uint32_t LineStrips::place_at(std::uint32_t vertex, std::span<const ShapeVertex> vertices,
-                                   const glm::mat4& to_pixels) {
+                                   const glm::mat4& to_pixels, const CameraModel* lens) {
   const std::uint32_t point = welded_[vertex];
   const std::uint32_t known = place_of_[point];
   if (known < places_.size() && places_[known].point == point) return known;
@@ -60,15 +72,27 @@ std::uint32_t LineStrips::place_at(std::uint32_t vertex, std::span<const ShapeVe
   const glm::vec3 n(to_pixels * glm::vec4(v.outline_normal[0], v.outline_normal[1], v.outline_normal[2], 0));
   const float z = place.seen.z;
   // Which way the pixel moves when the point moves along its normal.
-  place.normal = unit(glm::vec2(n) * z - glm::vec2(place.seen) * n.z);
+  place.normal = glm::vec2(n) * z - glm::vec2(place.seen) * n.z;
+  if (lens != nullptr) {
+    place.plate_from_pinhole = lens_around(place.seen, *lens);
+    place.normal = place.plate_from_pinhole * place.normal;
+  }
+  place.normal = unit(place.normal);
   place.shortest_px = 1e30f;
   place_of_[point] = static_cast<std::uint32_t>(places_.size());
   places_.push_back(place);
   return place_of_[point];
 }
 
+// Whether the contour bends the same way here and at both neighbours, as a rim does.
+bool LineStrips::bends_evenly(const Place& place) const {
+  const auto bend = [](const Place& p) { return p.ends == 2 ? -glm::dot(p.outwards[1], p.onwards[0]) : 0.0f; };
+  const float here = bend(place);
+  return here * bend(places_[place.next[0]]) > 0 && here * bend(places_[place.next[1]]) > 0;
+}
+
 void LineStrips::find_push(Place& place) const {
-  // Edges shorter than this count less: where a contour zigzags over small triangles, corners say nothing.
+  // Edges shorter than this count less where a contour zigzags: over small triangles, corners say nothing.
   constexpr float full_px = 3;
   place.push = {place.normal, place.normal};
   const float hard = hard_[place.point];
@@ -82,7 +106,8 @@ void LineStrips::find_push(Place& place) const {
     return;
   }
   const float agree = glm::dot(first, second);
-  const float weight = hard * std::max(glm::smoothstep(0.7f, 0.9f, agree), std::min(place.shortest_px / full_px, 1.0f));
+  const float clear = bends_evenly(place) ? 1.0f : std::min(place.shortest_px / full_px, 1.0f);
+  const float weight = hard * std::max(glm::smoothstep(0.7f, 0.9f, agree), clear);
   const glm::vec2 sum = first + second;
   if ((1 + agree) * kMiterLimit * kMiterLimit >= 2) {
     const glm::vec2 miter = sum / (1 + agree);
@@ -104,21 +129,21 @@ void LineStrips::find_push(Place& place) const {
   place.cut = weight > 0;
 }
 
-void LineStrips::undo_lens(Place& place, const CameraModel& camera) const {
-  const float z = place.seen.z;
-  if (!(z > 0)) return;
-  const glm::dvec2 pixel = glm::dvec2(place.seen) / static_cast<double>(z);
-  const glm::dvec2 here = to_normalised(camera, pixel);
-  const glm::dvec2 there = to_normalised(camera, pixel + glm::dvec2(unit(place.push[0] + place.push[1])));
-  const glm::dvec2 moved = distort(camera, there) - distort(camera, here);
-  const double plate_px = glm::length(moved * glm::dvec2(camera.fx_px, camera.fy_px));
-  // Beyond where the lens folds its formula means nothing.
-  place.stretch = static_cast<float>(plate_px > 0.25 && plate_px < 4 ? 1 / plate_px : 1);
+// Notes that an edge ends here whose other end, `next`, lies that way; its outside is to the left of it or, with side
+// 1, to the right. Says which end of a piece this is.
+std::uint8_t LineStrips::meet(Place& place, std::uint32_t next, const glm::vec2& way, float side, float length_px) {
+  const glm::vec2 onwards = unit(place.plate_from_pinhole * way);
+  const glm::vec2 outwards = glm::vec2(onwards.y, -onwards.x) * side;
+  const auto end = static_cast<std::size_t>(place.ends++);
+  if (end < 2) place.outwards[end] = outwards, place.onwards[end] = onwards, place.next[end] = next;
+  place.shortest_px = std::min(place.shortest_px, length_px);
+  place.along_normal += glm::dot(outwards, place.normal);
+  return static_cast<std::uint8_t>(std::min<std::size_t>(end, 1));
 }
 
 std::uint32_t LineStrips::add(const Place& place, const glm::vec2& push, bool rim) {
   constexpr float scale = 1 / LineVertex::most_push;
-  const glm::vec2 stretched = push * place.stretch;
+  const glm::vec2 stretched = glm::inverse(place.plate_from_pinhole) * push;
   largest_push_ = std::max(largest_push_, glm::length(stretched));
   line_vertices_.push_back({place.position,
                             {snorm(stretched.x * scale), snorm(stretched.y * scale),
@@ -133,34 +158,23 @@ void LineStrips::collect(std::span<const ContourStrips::Piece> pieces, std::span
   line_vertices_.clear();
   indices_.clear();
   largest_push_ = 1;
+  const CameraModel* lens = camera.has_distortion() ? &camera : nullptr;
   for (const ContourStrips::Piece& piece : pieces) {
-    Line line{place_at(piece.from, vertices, to_pixels), place_at(piece.to, vertices, to_pixels), 0, 0};
+    Line line{place_at(piece.from, vertices, to_pixels, lens), place_at(piece.to, vertices, to_pixels, lens), 0, 0};
     Place &from = places_[line.from], &to = places_[line.to];
     // The way on the screen from the one end to the other, also if one of them lies behind the eye.
     const glm::vec2 way = glm::vec2(to.seen) * from.seen.z - glm::vec2(from.seen) * to.seen.z;
-    const float length = glm::length(way), length_px = length / std::abs(from.seen.z * to.seen.z);
+    const float length_px = glm::length(way) / std::abs(from.seen.z * to.seen.z);
     constexpr float least_px = 1e-3f;  // shorter ones are mostly rounding
     if (length_px > least_px) {
       // Faces run anticlockwise as seen from outside, so their outside is to the right; rows run downwards.
       const float side = mirrored_ != piece.from_behind ? 1.0f : -1.0f;
-      const glm::vec2 outwards = glm::vec2(way.y, -way.x) * (side / length);
-      const auto meet = [&](Place& place) {
-        const int end = place.ends++;
-        if (end < 2) place.outwards[static_cast<std::size_t>(end)] = outwards;
-        place.shortest_px = std::min(place.shortest_px, length_px);
-        place.along_normal += glm::dot(outwards, place.normal);
-        return static_cast<std::uint8_t>(std::min(end, 1));
-      };
-      line.from_end = meet(from);
-      line.to_end = meet(to);
+      line.from_end = meet(from, line.to, way, side, length_px);
+      line.to_end = meet(to, line.from, -way, -side, length_px);
     }
     lines_.push_back(line);
   }
-  const bool lens = camera.has_distortion();
-  for (Place& place : places_) {
-    find_push(place);
-    if (lens) undo_lens(place, camera);
-  }
+  for (Place& place : places_) find_push(place);
   for (const Line& line : lines_) {
     const Place &from = places_[line.from], &to = places_[line.to];
     const glm::vec2 &at_from = from.push[line.from_end], &at_to = to.push[line.to_end];

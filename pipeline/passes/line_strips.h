@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include <glm/mat2x2.hpp>
 #include <glm/mat4x4.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
@@ -31,8 +32,8 @@ struct LineVertex {
 ///
 /// Where a surface is smooth, a vertex is pushed along its outline normal as it is seen. Where it is hard, that normal
 /// lies askew to the edges, so the vertex goes to where the edges' own offsets meet (a miter); at corners so sharp that
-/// this is farther than kMiterLimit widths, the miter is cut off and a triangle closes the line. Lengths are those in
-/// the plate: the lens's stretching at the vertex is undone.
+/// this is farther than kMiterLimit widths, the miter is cut off and a triangle closes the line. All this is done as
+/// the lens shows it, and the lens's stretching undone last: widths are those in the plate.
 class LineStrips {
  public:
   static constexpr float kMiterLimit = 2.5f;
@@ -57,12 +58,13 @@ class LineStrips {
   struct Place {
     std::uint32_t point = 0;
     glm::vec3 position{0};
-    glm::vec3 seen{0};    // x Z, y Z, Z
-    glm::vec2 normal{0};  // unit or 0: the outline normal as it is seen
-    float stretch = 1;    // pixels of the pinhole picture that a pixel of the plate takes
-    int ends = 0;         // of pieces with a direction
-    // Of the first two such pieces: outwards, unit; and the length.
-    std::array<glm::vec2, 2> outwards{};
+    glm::vec3 seen{0};                // x Z, y Z, Z
+    glm::vec2 normal{0};              // unit or 0: the outline normal as it is seen
+    glm::mat2 plate_from_pinhole{1};  // around the point; directions and lengths below are the plate's
+    int ends = 0;                     // of pieces with a direction
+    // Of the first two such pieces: outwards, and to its other end, unit; which place that is.
+    std::array<glm::vec2, 2> outwards{}, onwards{};
+    std::array<std::uint32_t, 2> next{};
     float shortest_px = 0;
     float along_normal = 0;  // sum over all pieces of outwards . normal
     // What is found for the two pieces' rims, and whether they differ.
@@ -73,9 +75,11 @@ class LineStrips {
     std::uint32_t from, to;         // of places_
     std::uint8_t from_end, to_end;  // which of the place's ends it is
   };
-  std::uint32_t place_at(std::uint32_t vertex, std::span<const ShapeVertex> vertices, const glm::mat4& to_pixels);
+  std::uint32_t place_at(std::uint32_t vertex, std::span<const ShapeVertex> vertices, const glm::mat4& to_pixels,
+                         const CameraModel* lens);
+  static std::uint8_t meet(Place& place, std::uint32_t next, const glm::vec2& way, float side, float length_px);
+  bool bends_evenly(const Place& place) const;
   void find_push(Place& place) const;
-  void undo_lens(Place& place, const CameraModel& camera) const;
   std::uint32_t add(const Place& place, const glm::vec2& push, bool rim);
 
   bool mirrored_;
