@@ -24,7 +24,7 @@ struct WidthOptions {
   float saturation = 1;    ///< the curvature from which on that much is added, in K95: s / K95; above 0
   float curve = 1;         ///< exponent on the way there, above 0: below 1 gentle bends count more, above 1 less
   float least = 0.25f;     ///< the thinnest line, in base lines; above 0, to 1
-  int smoothing = 1;       ///< how often factors are averaged over neighbours, so that widths don't jitter
+  int smoothing = 3;       ///< how often factors are averaged over neighbours, so that widths don't jitter
 };
 
 /// What a line's width is multiplied by at each point of a surface, so that it follows the surface's curvature K.

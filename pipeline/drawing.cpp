@@ -85,7 +85,7 @@ void add_outline(PassList& list, passes::DrawnObject& drawn, const ObjectScene& 
   options.least_px = static_cast<float>(line.min_px);
   options.most_px = static_cast<float>(line.max_px);
   options.colour = colour(line.colour);
-  options.factors = factors;
+  options.style = {factors, static_cast<float>(line.taper_px)};
   list.push_back(std::make_unique<outline::HullPass>(drawn, options));
 }
 

@@ -254,6 +254,7 @@ void read_curvature_width(const Table& outline, OutlineScene& scene) {
                    outline, "sign",
                    {{"magnitude", O::Sign::Magnitude}, {"convex", O::Sign::Convex}, {"concave", O::Sign::Concave}})
                    .value_or(scene.sign);
+  if (scene.method == O::Method::Curvature) scene.taper_px = 15;
   scene.exaggeration = outline.number("exaggeration", {0, 20}).value_or(scene.exaggeration);
   scene.saturation = outline.number("saturation", Limits::above(0, 1000)).value_or(scene.saturation);
   scene.curve = outline.number("curve", Limits::above(0, 10)).value_or(scene.curve);
@@ -266,6 +267,7 @@ std::optional<OutlineScene> read_outline(const Table& object) {
   if (const auto outline = object.table_unless_flag("outline")) {
     read_width(*outline, scene);
     read_curvature_width(*outline, scene);
+    scene.taper_px = outline->number("taper_px", {0, 1000}).value_or(scene.taper_px);
     scene.colour = read_colour(*outline, "colour").value_or(scene.colour);
   } else if (!object.has("outline") || !*object.flag("outline")) {
     return std::nullopt;

@@ -22,8 +22,8 @@ inline toml::Schema scene_schema() {
        .repeated = true},
       {.path = "object.toon", .keys = {"bands", "shade_colour"}},
       {.path = "object.outline",
-       .keys = {"width_px", "width_m", "min_px", "max_px", "colour", "method", "curvature", "sign", "exaggeration",
-                "saturation", "curve", "min_factor", "smoothing"}},
+       .keys = {"width_px", "width_m", "min_px", "max_px", "taper_px", "colour", "method", "curvature", "sign",
+                "exaggeration", "saturation", "curve", "min_factor", "smoothing"}},
       {.path = "output", .keys = {"video", "images", "codec", "bit_rate", "content"}},
   };
 }

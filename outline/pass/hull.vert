@@ -7,6 +7,7 @@ uniform float most_push;       // LineVertex::most_push
 uniform vec2 width_px;         // the same at any distance, and what is divided by the depth in metres
 uniform vec2 width_limits_px;
 uniform float largest_factor;
+uniform bool soft;             // only the line's last pixel, which fades; else only what is opaque
 
 invariant gl_Position;
 out float inside_px;  // how far inside the rim
@@ -21,11 +22,14 @@ void main() {
   float drawn_px = max(wished_px, 1.0);
   strength = min(wished_px, 1.0);
   // From under the body's own feather to half a pixel past the line's edge.
+  const float under_px = -0.5;
+  float rim_px = drawn_px + 0.5;
+  float opaque_px = wished_px < 1.0 ? under_px : drawn_px - 0.5;
   bool rim = line.w > 0.5;
-  float offset_px = rim ? drawn_px + 0.5 : -0.5;
+  float offset_px = soft ? (rim ? rim_px : opaque_px) : (rim ? opaque_px : under_px);
   clip.xy += line.xy * (most_push * offset_px * 2.0 * depth) / viewport_px;
   // A little farther than the body, whose feather lies over the line's inner edge. Depth is near / Z.
   clip.z *= 0.9998;
   gl_Position = clip;
-  inside_px = rim ? 0.0 : drawn_px + 1.0;
+  inside_px = rim_px - offset_px;
 }

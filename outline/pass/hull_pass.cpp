@@ -10,14 +10,15 @@
 namespace rinkaku::outline {
 
 HullPass::HullPass(passes::DrawnObject& object, const HullOptions& options) : object_(object), options_(options) {
-  object_.ask_for_lines(options.factors);
-  options_.factors = {};
+  object_.ask_for_lines(options.style);
+  options_.style.factors = {};
   const std::string_view vertex[] = {embedded::hull_vert};
   const std::string_view fragment[] = {embedded::hull_frag};
   program_ = gl::Program("outline", {}, vertex, fragment);
   clip_from_object_ = program_.uniform("clip_from_object");
   viewport_px_ = program_.uniform("viewport_px");
   width_px_ = program_.uniform("width_px");
+  soft_ = program_.uniform("soft");
   if (options_.width_m <= 0) options_.least_px = options_.most_px = options_.width_px;
   const GLuint name = program_.name();
   glProgramUniform2f(name, program_.uniform("width_limits_px"), options_.least_px, options_.most_px);
@@ -46,9 +47,12 @@ void HullPass::draw_edges(const passes::DrawCall& call) {
   const bool metres = options_.width_m > 0;
   glUniform2f(width_px_, metres ? 0 : options_.width_px,
               metres ? static_cast<float>(call.view.camera.fx_px) * options_.width_m : 0);
-  glDepthMask(GL_TRUE);
-  glDrawElements(GL_TRIANGLES, count, GL_UNSIGNED_INT, nullptr);
-  glDepthMask(GL_FALSE);
+  // Only what is opaque hides what is behind it: lines that cross keep no holes along their soft rims.
+  for (const bool soft : {false, true}) {
+    glUniform1i(soft_, soft ? 1 : 0);
+    glDepthMask(soft ? GL_FALSE : GL_TRUE);
+    glDrawElements(GL_TRIANGLES, count, GL_UNSIGNED_INT, nullptr);
+  }
 }
 
 }  // namespace rinkaku::outline

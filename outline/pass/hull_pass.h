@@ -1,10 +1,9 @@
 #pragma once
 
-#include <span>
-
 #include <glm/vec3.hpp>
 
 #include "pipeline/gl/program.h"
+#include "pipeline/passes/line_strips.h"
 #include "pipeline/passes/pass.h"
 
 namespace rinkaku::outline {
@@ -14,8 +13,7 @@ struct HullOptions {
   float width_m = 0;                      ///< above 0: the line is as wide as something of this size at its depth
   float least_px = 0, most_px = 40;       ///< between which width_m stays
   glm::vec3 colour{0.07f, 0.05f, 0.09f};  ///< sRGB-encoded
-  /// What the width is multiplied by at each welded point, above 0; empty for 1. Read at construction only.
-  std::span<const float> factors{};
+  passes::LineStyle style;                ///< its factors are read at construction only
 };
 
 /// Draws a line around an object by its hull: the mesh pushed outwards along welded normals, seen from within (Raskar
@@ -44,6 +42,7 @@ class HullPass : public passes::ObjectPass {
   GLint clip_from_object_ = -1;
   GLint viewport_px_ = -1;
   GLint width_px_ = -1;
+  GLint soft_ = -1;
 };
 
 }  // namespace rinkaku::outline

@@ -33,6 +33,8 @@ class ContourStrips {
     bool from_behind;              ///< as the border of an open surface may be seen
   };
   std::span<const Piece> pieces() const { return pieces_; }
+  /// How a contour goes on where it is never seen, in no order: what faces away lies before it.
+  std::span<const Piece> hidden_pieces() const { return hidden_pieces_; }
 
  private:
   struct EdgeVertices {
@@ -47,7 +49,7 @@ class ContourStrips {
   std::vector<EdgeVertices> edges_;
   std::size_t parts_;
   // This frame's, kept for their memory.
-  std::vector<Piece> pieces_;
+  std::vector<Piece> pieces_, hidden_pieces_;
   std::vector<ShapeVertex> strip_vertices_;
   std::vector<std::uint32_t> indices_;
   std::vector<Run> runs_;

@@ -67,8 +67,8 @@ std::span<const Run> DrawnObject::bind_contour() {
   return shape_.last_look().strip_runs;
 }
 
-void DrawnObject::ask_for_lines(std::span<const float> factors) {
-  shape_.ask_for_lines(factors);
+void DrawnObject::ask_for_lines(const LineStyle& style) {
+  shape_.ask_for_lines(style);
   GLuint name = 0;
   glCreateVertexArrays(1, &name);
   line_array_ = gl::VertexArrayHandle(name);

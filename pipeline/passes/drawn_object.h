@@ -24,7 +24,7 @@ class DrawnObject {
   /// Binds the contour's quads (see ContourStrips); draw them likewise.
   std::span<const Run> bind_contour();
   /// Has looks find lines from now on (see ObjectShape::ask_for_lines).
-  void ask_for_lines(std::span<const float> factors);
+  void ask_for_lines(const LineStyle& style);
   /// Binds the contour's lines; one draw of as many indices as is returned.
   GLsizei bind_lines();
   /// Binds the quads along borders between materials (see BorderStrips).

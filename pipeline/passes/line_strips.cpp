@@ -53,8 +53,9 @@ LineStrips::LineStrips(const mesh::Mesh& mesh, const mesh::Topology& topology, b
       factors_(topology.points.size(), 1.0f),
       place_of_(topology.points.size(), 0) {}
 
-void LineStrips::set_factors(std::span<const float> factors) {
-  factors_.assign(factors.begin(), factors.end());
+void LineStrips::style(const LineStyle& style) {
+  taper_px_ = style.taper_px;
+  factors_.assign(style.factors.begin(), style.factors.end());
   factors_.resize(hard_.size(), 1.0f);
   largest_factor_ = factors_.empty() ? 1.0f : *std::max_element(factors_.begin(), factors_.end());
 }
@@ -68,6 +69,8 @@ std::uint32_t LineStrips::place_at(std::uint32_t vertex, std::span<const ShapeVe
   Place place;
   place.point = point;
   place.position = v.position;
+  place.factor = factors_[point];
+  place.soft = hard_[point] < 0.5f;
   place.seen = glm::vec3(to_pixels * glm::vec4(v.position, 1));
   const glm::vec3 n(to_pixels * glm::vec4(v.outline_normal[0], v.outline_normal[1], v.outline_normal[2], 0));
   const float z = place.seen.z;
@@ -135,10 +138,97 @@ std::uint8_t LineStrips::meet(Place& place, std::uint32_t next, const glm::vec2&
   const glm::vec2 onwards = unit(place.plate_from_pinhole * way);
   const glm::vec2 outwards = glm::vec2(onwards.y, -onwards.x) * side;
   const auto end = static_cast<std::size_t>(place.ends++);
-  if (end < 2) place.outwards[end] = outwards, place.onwards[end] = onwards, place.next[end] = next;
+  if (end < 2)
+    place.outwards[end] = outwards, place.onwards[end] = onwards, place.next[end] = next,
+    place.length_px[end] = length_px;
   place.shortest_px = std::min(place.shortest_px, length_px);
   place.along_normal += glm::dot(outwards, place.normal);
   return static_cast<std::uint8_t>(std::min<std::size_t>(end, 1));
+}
+
+void LineStrips::note_hidden(std::span<const ContourStrips::Piece> pieces, std::span<const ShapeVertex> vertices,
+                             const glm::mat4& to_pixels, const CameraModel* lens) {
+  for (const ContourStrips::Piece& piece : pieces) {
+    const std::uint32_t ends[2] = {place_at(piece.from, vertices, to_pixels, lens),
+                                   place_at(piece.to, vertices, to_pixels, lens)};
+    const glm::vec3 a = places_[ends[0]].seen, b = places_[ends[1]].seen;
+    const float length_px = glm::length(glm::vec2(b) * a.z - glm::vec2(a) * b.z) / std::abs(a.z * b.z);
+    for (int k = 0; k < 2; ++k) {
+      Place& place = places_[ends[k]];
+      const auto end = static_cast<std::size_t>(place.hidden_ends++);
+      if (end < 2) place.hidden_next[end] = ends[1 - k], place.hidden_length_px[end] = length_px;
+    }
+  }
+}
+
+// How long the contour is hidden from the end of a line to the start of the next.
+float LineStrips::hidden_px(std::uint32_t from) const {
+  float way_px = 0;
+  std::uint32_t before = from, here = from;
+  do {
+    const Place& place = places_[here];
+    if (place.hidden_ends == 0) break;
+    const std::size_t on = place.hidden_ends >= 2 && place.hidden_next[0] == before ? 1 : 0;
+    way_px += place.hidden_length_px[on];
+    before = here;
+    here = place.hidden_next[on];
+  } while (way_px < taper_px_ && places_[here].ends == 0 && places_[here].hidden_ends == 2);
+  return way_px;
+}
+
+// Lines that end on a surface end thin.
+void LineStrips::taper_ends() {
+  constexpr float thinnest = 0.1f;
+  for (std::uint32_t end = 0; end < places_.size(); ++end) {
+    if (places_[end].ends != 1) continue;
+    // Over small triangles a line may be hidden for a few of them in its middle.
+    const float least = 1 - (1 - thinnest) * std::min(hidden_px(end) / taper_px_, 1.0f);
+    float way_px = 0;
+    std::uint32_t before = end, here = end;
+    do {
+      Place& place = places_[here];
+      place.taper = std::min(place.taper, glm::mix(least, 1.0f, std::min(way_px / taper_px_, 1.0f)));
+      const std::size_t on = place.ends == 2 && place.next[0] == before ? 1 : 0;
+      way_px += place.length_px[on];
+      before = here;
+      here = place.next[on];
+    } while (way_px < taper_px_ && places_[here].ends == 2);
+  }
+}
+
+// A quad; where a smooth line bends much from end to end, several, so that its rim is round.
+void LineStrips::emit(const Line& line) {
+  const Place &from = places_[line.from], &to = places_[line.to];
+  const glm::vec2 &first = from.push[line.from_end], &last = to.push[line.to_end];
+  float turn = 0;
+  if (from.soft && to.soft) turn = std::atan2(first.x * last.y - first.y * last.x, glm::dot(first, last));
+  constexpr float flat = 0.14f;  // 8 degrees: the rim of a line 15 px wide is off by a twentieth of a pixel
+  const int count = std::clamp(static_cast<int>(std::ceil(std::abs(turn) / flat)), 1, 8);
+  std::uint32_t before = add(from, first, false);
+  add(from, first, true);
+  for (int i = 1; i <= count; ++i) {
+    std::uint32_t here = 0;
+    if (i == count) {
+      here = add(to, last, false);
+      add(to, last, true);
+    } else {
+      const float t = static_cast<float>(i) / static_cast<float>(count);
+      const float cosine = std::cos(turn * t), sine = std::sin(turn * t);
+      const glm::vec2 push(cosine * first.x - sine * first.y, sine * first.x + cosine * first.y);
+      here = add_between(from, to, t, push, false);
+      add_between(from, to, t, push, true);
+    }
+    for (std::uint32_t corner : {before, here, before + 1, before + 1, here, here + 1}) indices_.push_back(corner);
+    before = here;
+  }
+}
+
+std::uint32_t LineStrips::add_between(const Place& from, const Place& to, float t, const glm::vec2& push, bool rim) {
+  Place place = from;
+  place.position = glm::mix(from.position, to.position, t);
+  place.factor = glm::mix(from.factor * from.taper, to.factor * to.taper, t);
+  place.taper = 1;
+  return add(place, push, rim);
 }
 
 std::uint32_t LineStrips::add(const Place& place, const glm::vec2& push, bool rim) {
@@ -147,11 +237,11 @@ std::uint32_t LineStrips::add(const Place& place, const glm::vec2& push, bool ri
   largest_push_ = std::max(largest_push_, glm::length(stretched));
   line_vertices_.push_back({place.position,
                             {snorm(stretched.x * scale), snorm(stretched.y * scale),
-                             snorm(factors_[place.point] / largest_factor_), snorm(rim ? 1.0f : 0.0f)}});
+                             snorm(place.factor * place.taper / largest_factor_), snorm(rim ? 1.0f : 0.0f)}});
   return static_cast<std::uint32_t>(line_vertices_.size() - 1);
 }
 
-void LineStrips::collect(std::span<const ContourStrips::Piece> pieces, std::span<const ShapeVertex> vertices,
+void LineStrips::collect(const ContourStrips& contour, std::span<const ShapeVertex> vertices,
                          const glm::mat4& to_pixels, const CameraModel& camera) {
   places_.clear();
   lines_.clear();
@@ -159,7 +249,7 @@ void LineStrips::collect(std::span<const ContourStrips::Piece> pieces, std::span
   indices_.clear();
   largest_push_ = 1;
   const CameraModel* lens = camera.has_distortion() ? &camera : nullptr;
-  for (const ContourStrips::Piece& piece : pieces) {
+  for (const ContourStrips::Piece& piece : contour.pieces()) {
     Line line{place_at(piece.from, vertices, to_pixels, lens), place_at(piece.to, vertices, to_pixels, lens), 0, 0};
     Place &from = places_[line.from], &to = places_[line.to];
     // The way on the screen from the one end to the other, also if one of them lies behind the eye.
@@ -175,15 +265,11 @@ void LineStrips::collect(std::span<const ContourStrips::Piece> pieces, std::span
     lines_.push_back(line);
   }
   for (Place& place : places_) find_push(place);
-  for (const Line& line : lines_) {
-    const Place &from = places_[line.from], &to = places_[line.to];
-    const glm::vec2 &at_from = from.push[line.from_end], &at_to = to.push[line.to_end];
-    const std::uint32_t base = add(from, at_from, false);
-    add(to, at_to, false);
-    add(from, at_from, true);
-    add(to, at_to, true);
-    for (std::uint32_t corner : {0u, 1u, 2u, 2u, 1u, 3u}) indices_.push_back(base + corner);
+  if (taper_px_ > 0) {
+    note_hidden(contour.hidden_pieces(), vertices, to_pixels, lens);
+    taper_ends();
   }
+  for (const Line& line : lines_) emit(line);
   for (const Place& place : places_) {
     if (!place.cut) continue;
     indices_.push_back(add(place, (place.push[0] + place.push[1]) * 0.5f, false));

@@ -111,7 +111,7 @@ const Look& ObjectShape::look(const View& view, const PixelRect& picture) {
   look_.strip_indices = strips_->indices();
   look_.strip_runs = strips_->runs();
   if (asked_for_lines_) {
-    lines_->collect(strips_->pieces(), vertices_, to_pixels, view.camera);
+    lines_->collect(*strips_, vertices_, to_pixels, view.camera);
     look_.line_vertices = lines_->vertices();
     look_.line_indices = lines_->indices();
     look_.line_push = lines_->largest_push();
@@ -122,9 +122,9 @@ const Look& ObjectShape::look(const View& view, const PixelRect& picture) {
   return look_;
 }
 
-void ObjectShape::ask_for_lines(std::span<const float> factors) {
+void ObjectShape::ask_for_lines(const LineStyle& style) {
   asked_for_lines_ = true;
-  lines_->set_factors(factors);
+  lines_->style(style);
 }
 
 ObjectShape::Level& ObjectShape::level_for(const View& view) {

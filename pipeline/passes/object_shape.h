@@ -57,9 +57,8 @@ class ObjectShape {
   const Look& look(const View& view, const PixelRect& picture);
   const Look& last_look() const { return look_; }
 
-  /// From now on looks find lines along the contour. `factors`: what their width is multiplied by at each welded point,
-  /// above 0; empty for 1.
-  void ask_for_lines(std::span<const float> factors);
+  /// From now on looks find lines along the contour.
+  void ask_for_lines(const LineStyle& style);
   float largest_line_factor() const { return lines_->largest_factor(); }
 
   std::span<const ShapeVertex> vertices() const { return vertices_; }

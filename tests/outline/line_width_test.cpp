@@ -101,6 +101,7 @@ TEST(LineWidth, EachKindReadsItsCurvatureAsOneOverLength) {
 TEST(LineWidth, SmoothingAveragesOverNeighbours) {
   WidthOptions options;
   options.exaggeration = 8;
+  options.smoothing = 1;
   // Factors 1 1 9 1 1. Once: the middle is (9 + 1) / 2, beside it (1 + (1 + 9) / 2) / 2, the ends stay.
   const Curvature c = with_mean({0, 0, 1, 0, 0});
   expect_factors(line_width_factors(row(5), c, 1, options), {1, 3, 5, 3, 1});
