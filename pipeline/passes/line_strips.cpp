@@ -26,7 +26,10 @@ std::vector<float> hardness(const mesh::Topology& topology) {
   return least;
 }
 
-std::int16_t snorm(float f) { return static_cast<std::int16_t>(std::lround(std::clamp(f, -1.0f, 1.0f) * 32767.0f)); }
+// To the nearest; above 0 before it is cut, so that no call to round is needed.
+std::int16_t snorm(float f) {
+  return static_cast<std::int16_t>(static_cast<int>(std::clamp(f, -1.0f, 1.0f) * 32767.0f + 32768.5f) - 32768);
+}
 
 // How the lens moves a pixel of the plate when the pixel of the pinhole picture moves.
 glm::mat2 lens_around(const glm::vec3& seen, const CameraModel& camera) {
@@ -204,6 +207,7 @@ void LineStrips::emit(const Line& line) {
   if (from.soft && to.soft) turn = std::atan2(first.x * last.y - first.y * last.x, glm::dot(first, last));
   constexpr float flat = 0.14f;  // 8 degrees: the rim of a line 15 px wide is off by a twentieth of a pixel
   const int count = std::clamp(static_cast<int>(std::ceil(std::abs(turn) / flat)), 1, 8);
+  const float growth = count > 1 ? glm::length(last) / glm::length(first) : 1.0f;
   std::uint32_t before = add(from, first, false);
   add(from, first, true);
   for (int i = 1; i <= count; ++i) {
@@ -213,7 +217,8 @@ void LineStrips::emit(const Line& line) {
       add(to, last, true);
     } else {
       const float t = static_cast<float>(i) / static_cast<float>(count);
-      const float cosine = std::cos(turn * t), sine = std::sin(turn * t);
+      const float length = glm::mix(1.0f, growth, t);
+      const float cosine = length * std::cos(turn * t), sine = length * std::sin(turn * t);
       const glm::vec2 push(cosine * first.x - sine * first.y, sine * first.x + cosine * first.y);
       here = add_between(from, to, t, push, false);
       add_between(from, to, t, push, true);
@@ -233,11 +238,11 @@ std::uint32_t LineStrips::add_between(const Place& from, const Place& to, float 
 
 std::uint32_t LineStrips::add(const Place& place, const glm::vec2& push, bool rim) {
   constexpr float scale = 1 / LineVertex::most_push;
-  const glm::vec2 stretched = glm::inverse(place.plate_from_pinhole) * push;
-  largest_push_ = std::max(largest_push_, glm::length(stretched));
-  line_vertices_.push_back({place.position,
-                            {snorm(stretched.x * scale), snorm(stretched.y * scale),
-                             snorm(place.factor * place.taper / largest_factor_), snorm(rim ? 1.0f : 0.0f)}});
+  largest_push_squared_ = std::max(largest_push_squared_, glm::dot(push, push));
+  line_vertices_.push_back(
+      {place.position,
+       {snorm(push.x * scale), snorm(push.y * scale), snorm(place.factor * place.taper / largest_factor_),
+        static_cast<std::int16_t>(rim ? 32767 : 0)}});
   return static_cast<std::uint32_t>(line_vertices_.size() - 1);
 }
 
@@ -247,7 +252,7 @@ void LineStrips::collect(const ContourStrips& contour, std::span<const ShapeVert
   lines_.clear();
   line_vertices_.clear();
   indices_.clear();
-  largest_push_ = 1;
+  largest_push_squared_ = 1;
   const CameraModel* lens = camera.has_distortion() ? &camera : nullptr;
   for (const ContourStrips::Piece& piece : contour.pieces()) {
     Line line{place_at(piece.from, vertices, to_pixels, lens), place_at(piece.to, vertices, to_pixels, lens), 0, 0};
@@ -264,7 +269,12 @@ void LineStrips::collect(const ContourStrips& contour, std::span<const ShapeVert
     }
     lines_.push_back(line);
   }
-  for (Place& place : places_) find_push(place);
+  for (Place& place : places_) {
+    find_push(place);
+    if (lens == nullptr) continue;
+    const glm::mat2 pinhole_from_plate = glm::inverse(place.plate_from_pinhole);
+    for (glm::vec2& push : place.push) push = pinhole_from_plate * push;
+  }
   if (taper_px_ > 0) {
     note_hidden(contour.hidden_pieces(), vertices, to_pixels, lens);
     taper_ends();

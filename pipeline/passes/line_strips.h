@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -58,7 +59,7 @@ class LineStrips {
   std::span<const LineVertex> vertices() const { return line_vertices_; }
   std::span<const std::uint32_t> indices() const { return indices_; }
   float largest_factor() const { return largest_factor_; }
-  float largest_push() const { return largest_push_; }  ///< of this frame's, in widths
+  float largest_push() const { return std::sqrt(largest_push_squared_); }  ///< of this frame's, in widths
 
  private:
   // A point of this frame's contour.
@@ -109,7 +110,7 @@ class LineStrips {
   std::vector<std::uint32_t> place_of_;  // per point, of this frame's; valid where places_ agrees
   float taper_px_ = 0;
   float largest_factor_ = 1;
-  float largest_push_ = 1;
+  float largest_push_squared_ = 1;
   // This frame's, kept for their memory.
   std::vector<Place> places_;
   std::vector<Line> lines_;

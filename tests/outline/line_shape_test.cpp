@@ -22,7 +22,7 @@ using passes::View;
 
 constexpr int kSide_px = 360;
 // The most that is off near corners, where miters of one edge begin on another's strip; half a pixel is allowed.
-constexpr double kWidthError_px = 0.4;
+constexpr double kWidthError_px = 0.3;
 
 class LineShape : public GlTest {};
 
@@ -260,7 +260,7 @@ TEST_F(LineShape, IsClosedAroundClosedMeshes) {
       width.exaggeration = static_cast<float>(exaggeration);
       const std::vector<float> factors =
           outline::line_width_factors(topology, curvature, outline::k95(curvature), width);
-      for (int i = 0; i < 50; ++i) {
+      for (int i = 0; i < 30; ++i) {
         outline::HullOptions options;
         options.style.factors = factors;
         options.colour = {1, 0, 0};
