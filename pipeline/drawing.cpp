@@ -5,10 +5,13 @@
 #include <future>
 #include <map>
 #include <optional>
+#include <span>
 #include <utility>
 
 #include <glm/vec3.hpp>
 
+#include "outline/curvature.h"
+#include "outline/line_width.h"
 #include "outline/pass/hull_pass.h"
 #include "pipeline/gl/context.h"
 #include "pipeline/in_parallel.h"
@@ -33,11 +36,60 @@ passes::ToonOptions toon_options(const ObjectScene& object, const LightScene& li
   return options;
 }
 
-void add_outline(PassList& list, passes::DrawnObject& drawn, const ObjectScene& object) {
+outline::CurvatureKind kind(OutlineScene::Curvature curvature) {
+  switch (curvature) {
+    case OutlineScene::Curvature::Mean:
+      return outline::CurvatureKind::Mean;
+    case OutlineScene::Curvature::Gauss:
+      return outline::CurvatureKind::Gauss;
+    case OutlineScene::Curvature::Largest:
+      return outline::CurvatureKind::Largest;
+    case OutlineScene::Curvature::Smallest:
+      return outline::CurvatureKind::Smallest;
+  }
+  return {};
+}
+
+outline::CurvatureSign sign(OutlineScene::Sign sign) {
+  switch (sign) {
+    case OutlineScene::Sign::Magnitude:
+      return outline::CurvatureSign::Magnitude;
+    case OutlineScene::Sign::Convex:
+      return outline::CurvatureSign::Convex;
+    case OutlineScene::Sign::Concave:
+      return outline::CurvatureSign::Concave;
+  }
+  return {};
+}
+
+// Per welded point; empty where the width doesn't follow the shape.
+std::vector<float> line_factors(const ObjectScene& object, const mesh::Mesh& mesh) {
+  if (!object.outline || object.outline->method != OutlineScene::Method::Curvature) return {};
+  const OutlineScene& line = *object.outline;
+  outline::WidthOptions options;
+  options.kind = kind(line.curvature);
+  options.sign = sign(line.sign);
+  options.exaggeration = static_cast<float>(line.exaggeration);
+  options.saturation = static_cast<float>(line.saturation);
+  options.curve = static_cast<float>(line.curve);
+  options.least = static_cast<float>(line.min_factor);
+  options.smoothing = line.smoothing;
+  const mesh::Topology topology = mesh::topology(mesh);
+  const outline::Curvature found = outline::curvature(topology);
+  return outline::line_width_factors(topology, found, outline::k95(found), options);
+}
+
+void add_outline(PassList& list, passes::DrawnObject& drawn, const ObjectScene& object,
+                 std::span<const float> factors) {
   if (!object.outline) return;
+  const OutlineScene& line = *object.outline;
   outline::HullOptions options;
-  options.width_px = static_cast<float>(object.outline->width_px);
-  options.colour = colour(object.outline->colour);
+  options.width_px = static_cast<float>(line.width_px);
+  options.width_m = static_cast<float>(line.width_m.value_or(0));
+  options.least_px = static_cast<float>(line.min_px);
+  options.most_px = static_cast<float>(line.max_px);
+  options.colour = colour(line.colour);
+  options.style = {factors, static_cast<float>(line.taper_px)};
   list.push_back(std::make_unique<outline::HullPass>(drawn, options));
 }
 
@@ -46,6 +98,7 @@ struct PreparedObject {
   mesh::Imported imported;
   passes::ToonOptions toon;
   passes::ObjectShape shape;
+  std::vector<float> line_factors;
 };
 
 mesh::Imported import_mesh(const ObjectScene& object) {
@@ -70,7 +123,8 @@ PreparedObject prepare(mesh::Imported imported, const ObjectScene& object, const
   const glm::dmat4 place = world_from_object(object, mesh::bounding_box(mesh.positions), imported.summary.up);
   const passes::ToonOptions toon = toon_options(object, light);
   passes::ObjectShape shape(mesh, place, passes::band_borders(mesh, place, toon));
-  return {std::move(imported), toon, std::move(shape)};
+  std::vector<float> factors = line_factors(object, mesh);
+  return {std::move(imported), toon, std::move(shape), std::move(factors)};
 }
 
 // Objects of one file share its import, which takes a process.
@@ -127,7 +181,7 @@ Drawing make_drawing(const Scene& scene, const passes::PixelRect& picture) {
     } else {
       one.passes.push_back(std::make_unique<passes::ToonPass>(*one.object, prepared.imported.mesh, prepared.toon));
     }
-    add_outline(one.passes, *one.object, object);
+    add_outline(one.passes, *one.object, object, prepared.line_factors);
     styled.push_back(std::move(one));
   }
   drawing.renderer = std::make_unique<passes::LayerRenderer>(std::move(styled), picture);

@@ -88,6 +88,14 @@ Verdict outline(const Facts& f) {
   return {true, objects(n) + " outlined"};
 }
 
+Verdict curvature(const Facts& f) {
+  if (!f.draws()) return {false, no_object};
+  const std::size_t n =
+      f.count([](const ObjectScene& o) { return o.outline && o.outline->method == OutlineScene::Method::Curvature; });
+  if (n == 0) return {false, "no line's width follows curvature"};
+  return {true, "the line's width follows the curvature of " + objects(n)};
+}
+
 Verdict draw(const Facts& f) {
   if (!f.draws()) return {false, std::string(no_object) + ": no OpenGL context is made"};
   return {true, objects(f.scene.objects.size()) + " to draw"};
@@ -138,7 +146,8 @@ const std::vector<Kind>& kinds() {
       {"toon", toon, {"import"}},
       {"flat", flat, {"import"}},
       {"holdout", holdout, {"import"}},
-      {"outline", outline, {"import"}},
+      {"curvature", curvature, {"import"}},
+      {"outline", outline, {"import", "curvature"}},
       {"draw", draw, {"decode", "track", "smooth", "toon", "flat", "holdout", "outline"}},
       {"lens", lens, {"draw"}},
       {"composite", composite, {"decode", "draw", "lens"}},

@@ -62,7 +62,20 @@ struct ToonScene {
 
 struct OutlineScene {
   double width_px = 3;
+  std::optional<double> width_m;  ///< in place of width_px
+  double min_px = 0;              ///< for width_m
+  double max_px = 40;
+  double taper_px = 0;                             ///< 0: lines end blunt; by default 15 with the method Curvature
   std::array<double, 3> colour{0.07, 0.05, 0.09};  ///< sRGB
+  enum class Method { Uniform, Curvature } method = Method::Uniform;
+  /// For the method Curvature; see outline/line_width.h.
+  enum class Curvature { Mean, Gauss, Largest, Smallest } curvature = Curvature::Mean;
+  enum class Sign { Magnitude, Convex, Concave } sign = Sign::Magnitude;
+  double exaggeration = 2;
+  double saturation = 1;
+  double curve = 1;
+  double min_factor = 0.25;
+  int smoothing = 3;
 };
 
 struct ObjectScene {

@@ -21,7 +21,9 @@ inline toml::Schema scene_schema() {
                 "colour", "toon", "outline", "holdout"},
        .repeated = true},
       {.path = "object.toon", .keys = {"bands", "shade_colour"}},
-      {.path = "object.outline", .keys = {"width_px", "colour"}},
+      {.path = "object.outline",
+       .keys = {"width_px", "width_m", "min_px", "max_px", "taper_px", "colour", "method", "curvature", "sign",
+                "exaggeration", "saturation", "curve", "min_factor", "smoothing"}},
       {.path = "output", .keys = {"video", "images", "codec", "bit_rate", "content"}},
   };
 }

@@ -10,29 +10,49 @@
 namespace rinkaku::outline {
 
 HullPass::HullPass(passes::DrawnObject& object, const HullOptions& options) : object_(object), options_(options) {
-  const std::string_view vertex[] = {passes::screen_offset_glsl(), embedded::hull_vert};
+  object_.ask_for_lines(options.style);
+  options_.style.factors = {};
+  const std::string_view vertex[] = {embedded::hull_vert};
   const std::string_view fragment[] = {embedded::hull_frag};
   program_ = gl::Program("outline", {}, vertex, fragment);
-  offset_ = passes::OffsetUniforms(program_);
-  offset_px_ = program_.uniform("offset_px");
-  breadth_px_ = program_.uniform("breadth_px");
-  glProgramUniform1f(program_.name(), program_.uniform("strength"), std::min(options.width_px, 1.0f));
-  glProgramUniform3fv(program_.name(), program_.uniform("colour"), 1, glm::value_ptr(options.colour));
+  clip_from_object_ = program_.uniform("clip_from_object");
+  viewport_px_ = program_.uniform("viewport_px");
+  width_px_ = program_.uniform("width_px");
+  soft_ = program_.uniform("soft");
+  if (options_.width_m <= 0) options_.least_px = options_.most_px = options_.width_px;
+  const GLuint name = program_.name();
+  glProgramUniform2f(name, program_.uniform("width_limits_px"), options_.least_px, options_.most_px);
+  glProgramUniform1f(name, program_.uniform("largest_factor"), object_.shape().largest_line_factor());
+  glProgramUniform1f(name, program_.uniform("most_push"), passes::LineVertex::most_push);
+  glProgramUniform3fv(name, program_.uniform("colour"), 1, glm::value_ptr(options.colour));
+}
+
+double HullPass::reach_px(const passes::View& view) const {
+  const passes::Look& look = object_.shape().last_look();
+  double widest_px = options_.most_px;
+  if (options_.width_m > 0 && !look.crosses_eye_plane) {
+    const double nearest_px = view.camera.fx_px * options_.width_m / look.nearest_m;
+    widest_px = std::clamp<double>(nearest_px, options_.least_px, options_.most_px);
+  }
+  widest_px *= object_.shape().largest_line_factor();
+  return (std::max(widest_px, 1.0) + 0.5) * look.line_push + 0.5;
 }
 
 void HullPass::draw_edges(const passes::DrawCall& call) {
-  // From under the body's own feather to half a pixel past the line's edge. A line thinner than a pixel keeps a pixel's
-  // width and is as faint as it is thin.
-  const float width_px = std::max(options_.width_px, 1.0f);
-  constexpr float under_px = -0.5f;
-  const float reach_px = width_px + 0.5f;
+  const GLsizei count = object_.bind_lines();
+  if (count == 0) return;
   glUseProgram(program_.name());
-  offset_.set(call);
-  glUniform2f(offset_px_, under_px, reach_px);
-  glUniform1f(breadth_px_, reach_px - under_px);
-  glDepthMask(GL_TRUE);
-  for (const passes::Run& run : object_.bind_contour()) passes::draw_run(run);
-  glDepthMask(GL_FALSE);
+  glUniformMatrix4fv(clip_from_object_, 1, GL_FALSE, glm::value_ptr(call.clip_from_object));
+  glUniform2f(viewport_px_, call.viewport_px.x, call.viewport_px.y);
+  const bool metres = options_.width_m > 0;
+  glUniform2f(width_px_, metres ? 0 : options_.width_px,
+              metres ? static_cast<float>(call.view.camera.fx_px) * options_.width_m : 0);
+  // Only what is opaque hides what is behind it: lines that cross keep no holes along their soft rims.
+  for (const bool soft : {false, true}) {
+    glUniform1i(soft_, soft ? 1 : 0);
+    glDepthMask(soft ? GL_FALSE : GL_TRUE);
+    glDrawElements(GL_TRIANGLES, count, GL_UNSIGNED_INT, nullptr);
+  }
 }
 
 }  // namespace rinkaku::outline

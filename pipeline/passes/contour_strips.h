@@ -27,6 +27,15 @@ class ContourStrips {
   std::span<const std::uint32_t> indices() const { return indices_; }
   std::span<const Run> runs() const { return runs_; }
 
+  /// An edge of this frame's contour, in the direction in which the face that is seen runs along it.
+  struct Piece {
+    std::uint32_t part, from, to;  ///< `from` and `to` are vertices of the mesh
+    bool from_behind;              ///< as the border of an open surface may be seen
+  };
+  std::span<const Piece> pieces() const { return pieces_; }
+  /// How a contour goes on where it is never seen, in no order: what faces away lies before it.
+  std::span<const Piece> hidden_pieces() const { return hidden_pieces_; }
+
  private:
   struct EdgeVertices {
     std::uint32_t a0, b0, a1, b1;  // as face0 and face1 have them
@@ -34,18 +43,13 @@ class ContourStrips {
     std::uint32_t face0, face1;
     bool always_hidden;
   };
-  // An edge of this frame's contour, in the direction in which the face that is seen runs along it.
-  struct Piece {
-    std::uint32_t part, from, to;
-    bool from_behind;  // as the border of an open surface may be seen
-  };
   void collect_pieces(const mesh::Contour& contour);
   void emit(std::span<const ShapeVertex> vertices, const Piece& piece);
 
   std::vector<EdgeVertices> edges_;
   std::size_t parts_;
   // This frame's, kept for their memory.
-  std::vector<Piece> pieces_;
+  std::vector<Piece> pieces_, hidden_pieces_;
   std::vector<ShapeVertex> strip_vertices_;
   std::vector<std::uint32_t> indices_;
   std::vector<Run> runs_;

@@ -5,6 +5,15 @@
 #include <utility>
 
 namespace rinkaku::passes {
+namespace {
+
+void attribute(GLuint array, GLuint location, GLint size, GLenum type, GLboolean normalised, std::size_t offset) {
+  glEnableVertexArrayAttrib(array, location);
+  glVertexArrayAttribFormat(array, location, size, type, normalised, static_cast<GLuint>(offset));
+  glVertexArrayAttribBinding(array, location, 0);
+}
+
+}  // namespace
 
 DrawnObject::DrawnObject(ObjectShape shape)
     : shape_(std::move(shape)), mesh_array_(make_vertex_array()), contour_array_(make_vertex_array()) {
@@ -20,24 +29,17 @@ DrawnObject::DrawnObject(ObjectShape shape)
 gl::VertexArrayHandle DrawnObject::make_vertex_array() {
   GLuint name = 0;
   glCreateVertexArrays(1, &name);
-  auto attribute = [name](GLuint location, GLint size, GLenum type, GLboolean normalised, std::size_t offset) {
-    glEnableVertexArrayAttrib(name, location);
-    glVertexArrayAttribFormat(name, location, size, type, normalised, static_cast<GLuint>(offset));
-    glVertexArrayAttribBinding(name, location, 0);
-  };
-  attribute(0, 3, GL_FLOAT, GL_FALSE, offsetof(ShapeVertex, position));
-  attribute(1, 3, GL_SHORT, GL_TRUE, offsetof(ShapeVertex, normal));
-  attribute(2, 4, GL_SHORT, GL_TRUE, offsetof(ShapeVertex, outline_normal));
-  attribute(3, 2, GL_FLOAT, GL_FALSE, offsetof(ShapeVertex, uv));
-  attribute(4, 4, GL_UNSIGNED_BYTE, GL_TRUE, offsetof(ShapeVertex, colour));
+  attribute(name, 0, 3, GL_FLOAT, GL_FALSE, offsetof(ShapeVertex, position));
+  attribute(name, 1, 3, GL_SHORT, GL_TRUE, offsetof(ShapeVertex, normal));
+  attribute(name, 2, 4, GL_SHORT, GL_TRUE, offsetof(ShapeVertex, outline_normal));
+  attribute(name, 3, 2, GL_FLOAT, GL_FALSE, offsetof(ShapeVertex, uv));
+  attribute(name, 4, 4, GL_UNSIGNED_BYTE, GL_TRUE, offsetof(ShapeVertex, colour));
   return gl::VertexArrayHandle(name);
 }
 
 gl::VertexArrayHandle DrawnObject::make_border_array() {
   gl::VertexArrayHandle array = make_vertex_array();
-  glEnableVertexArrayAttrib(array.name(), 5);
-  glVertexArrayAttribFormat(array.name(), 5, 4, GL_SHORT, GL_TRUE, offsetof(BorderVertex, across));
-  glVertexArrayAttribBinding(array.name(), 5, 0);
+  attribute(array.name(), 5, 4, GL_SHORT, GL_TRUE, offsetof(BorderVertex, across));
   return array;
 }
 
@@ -59,6 +61,12 @@ void DrawnObject::upload() {
     glVertexArrayElementBuffer(intersection_array_.name(), intersection_index_buffer_.name());
     glVertexArrayVertexBuffer(intersection_array_.name(), 0, intersection_buffer_.name(), 0, sizeof(BorderVertex));
   }
+  if (!look.line_indices.empty()) {
+    line_buffer_.write(std::as_bytes(look.line_vertices));
+    line_index_buffer_.write(std::as_bytes(look.line_indices));
+    glVertexArrayElementBuffer(line_array_.name(), line_index_buffer_.name());
+    glVertexArrayVertexBuffer(line_array_.name(), 0, line_buffer_.name(), 0, sizeof(LineVertex));
+  }
 }
 
 std::span<const Run> DrawnObject::bind_front() {
@@ -70,6 +78,21 @@ std::span<const Run> DrawnObject::bind_front() {
 std::span<const Run> DrawnObject::bind_contour() {
   glBindVertexArray(contour_array_.name());
   return shape_.last_look().strip_runs;
+}
+
+void DrawnObject::ask_for_lines(const LineStyle& style) {
+  shape_.ask_for_lines(style);
+  GLuint name = 0;
+  glCreateVertexArrays(1, &name);
+  line_array_ = gl::VertexArrayHandle(name);
+  attribute(name, 0, 3, GL_FLOAT, GL_FALSE, offsetof(LineVertex, position));
+  attribute(name, 1, 4, GL_SHORT, GL_TRUE, offsetof(LineVertex, line));
+}
+
+GLsizei DrawnObject::bind_lines() {
+  const auto count = static_cast<GLsizei>(shape_.last_look().line_indices.size());
+  if (count > 0) glBindVertexArray(line_array_.name());
+  return count;
 }
 
 std::span<const Run> DrawnObject::bind_borders() {

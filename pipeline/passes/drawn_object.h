@@ -23,6 +23,10 @@ class DrawnObject {
   std::span<const Run> bind_front();
   /// Binds the contour's quads (see ContourStrips); draw them likewise.
   std::span<const Run> bind_contour();
+  /// Has looks find lines from now on (see ObjectShape::ask_for_lines).
+  void ask_for_lines(const LineStyle& style);
+  /// Binds the contour's lines; one draw of as many indices as is returned.
+  GLsizei bind_lines();
   /// Binds the quads along borders between materials (see BorderStrips).
   std::span<const Run> bind_borders();
   /// Binds the quads along intersections (see IntersectionStrips).
@@ -37,6 +41,8 @@ class DrawnObject {
   gl::StreamBuffer front_buffer_;
   gl::StreamBuffer strip_buffer_;
   gl::StreamBuffer strip_index_buffer_;
+  gl::StreamBuffer line_buffer_;
+  gl::StreamBuffer line_index_buffer_;
   gl::VertexArrayHandle mesh_array_;
   gl::StaticBuffer border_buffer_;
   gl::StreamBuffer border_index_buffer_;
@@ -45,6 +51,7 @@ class DrawnObject {
   gl::StreamBuffer intersection_buffer_;
   gl::StreamBuffer intersection_index_buffer_;
   gl::VertexArrayHandle intersection_array_;
+  gl::VertexArrayHandle line_array_;  // if asked for
 };
 
 /// Draws a run of what is bound.

@@ -34,7 +34,7 @@ bool LayerRenderer::draw(const View& view, Layer& layer) {
     double reach = 0;
     bool leaves_colour = false;
     for (const auto& pass : styled.passes) {
-      reach = std::max(reach, pass->reach_px());
+      reach = std::max(reach, pass->reach_px(view));
       leaves_colour = leaves_colour || pass->leaves_colour();
     }
     const PixelRect rect = intersection(grown(look.bounds, static_cast<int>(std::ceil(reach)) + 1), picture_);

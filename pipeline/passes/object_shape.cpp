@@ -50,6 +50,7 @@ ObjectShape::ObjectShape(const mesh::Mesh& mesh, const glm::dmat4& world_from_ob
   for (const mesh::Part& part : mesh.parts) two_sided_ = two_sided_ || mesh.materials[part.material].two_sided;
   collect_vertices(mesh, topology);
   strips_.emplace(mesh, topology, two_sided_);
+  lines_.emplace(mesh, topology, mirrored_);
   // Unlit, the two sides of a crease have one colour.
   borders_.emplace(mesh, topology, vertices_, world_from_object, !uneven.empty());
   const std::vector<mesh::Cut> cuts = mesh::intersections(topology);
@@ -115,6 +116,12 @@ const Look& ObjectShape::look(const View& view, const PixelRect& picture) {
   look_.strip_vertices = strips_->vertices();
   look_.strip_indices = strips_->indices();
   look_.strip_runs = strips_->runs();
+  if (asked_for_lines_) {
+    lines_->collect(*strips_, vertices_, to_pixels, view.camera);
+    look_.line_vertices = lines_->vertices();
+    look_.line_indices = lines_->indices();
+    look_.line_push = lines_->largest_push();
+  }
   borders_->collect(contour);
   look_.border_indices = borders_->indices();
   look_.border_runs = borders_->runs();
@@ -125,13 +132,18 @@ const Look& ObjectShape::look(const View& view, const PixelRect& picture) {
   return look_;
 }
 
+void ObjectShape::ask_for_lines(const LineStyle& style) {
+  asked_for_lines_ = true;
+  lines_->style(style);
+}
+
 // Null for the whole mesh.
 mesh::ContourFinder* ObjectShape::finder_for(const View& view) {
   // What changes in colour stays as it is and the contour is exact, so this shows only where the object hides itself.
   constexpr double most_px = 1.0;
   if (look_.crosses_eye_plane) return nullptr;
   // The most that one of the mesh's units takes, along the axis that is stretched most.
-  const double px_per_unit = view.camera.fx_px * largest_scale_ / nearest_m_;
+  const double px_per_unit = view.camera.fx_px * largest_scale_ / look_.nearest_m;
   std::size_t level = 0;
   while (level < levels_->count() && levels_->most_error(level) * px_per_unit <= most_px) ++level;
   return level == 0 ? nullptr : level_finder(level - 1);
@@ -181,7 +193,7 @@ void ObjectShape::find_bounds(const glm::mat4& to_pixels, const PixelRect& pictu
     farthest = depth > farthest ? depth : farthest;
   }
   if (!(farthest > near_m)) return;  // behind the camera, or no point at all
-  nearest_m_ = nearest;
+  look_.nearest_m = nearest;
   look_.crosses_eye_plane = !(nearest > near_m);
   if (look_.crosses_eye_plane) {
     look_.bounds = picture;

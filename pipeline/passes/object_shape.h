@@ -15,6 +15,7 @@
 #include "pipeline/passes/border_strips.h"
 #include "pipeline/passes/contour_strips.h"
 #include "pipeline/passes/intersection_strips.h"
+#include "pipeline/passes/line_strips.h"
 #include "pipeline/passes/shape_vertex.h"
 #include "pipeline/passes/view.h"
 
@@ -24,6 +25,7 @@ namespace rinkaku::passes {
 struct Look {
   bool visible = false;
   PixelRect bounds;                ///< of the mesh itself in the pinhole picture, whole pixels; passes reach further
+  double nearest_m = 0;            ///< the mesh's least depth, along the camera's axis
   double distance_m = 0;           ///< from the eye to the object's centre, for the order of drawing
   bool crosses_eye_plane = false;  ///< then bounds is the whole picture and screen positions are meaningless
   /// By how much the contour of what is drawn may miss the whole mesh's: what is drawn along the contour must reach so
@@ -34,6 +36,9 @@ struct Look {
   std::span<const ShapeVertex> strip_vertices;  ///< the contour's quads, see ContourStrips
   std::span<const std::uint32_t> strip_indices;
   std::span<const Run> strip_runs;
+  std::span<const LineVertex> line_vertices;  ///< see LineStrips; none if no pass asked for lines
+  std::span<const std::uint32_t> line_indices;
+  float line_push = 1;                            ///< the farthest that a line reaches, in widths
   std::span<const std::uint32_t> border_indices;  ///< of border_vertices(), see BorderStrips
   std::span<const Run> border_runs;
   std::span<const BorderVertex> intersection_vertices;  ///< see IntersectionStrips
@@ -57,6 +62,10 @@ class ObjectShape {
   /// nothing once warm.
   const Look& look(const View& view, const PixelRect& picture);
   const Look& last_look() const { return look_; }
+
+  /// From now on looks find lines along the contour.
+  void ask_for_lines(const LineStyle& style);
+  float largest_line_factor() const { return lines_->largest_factor(); }
 
   std::span<const ShapeVertex> vertices() const { return vertices_; }
   /// Of the borders between materials; empty if there are none.
@@ -98,10 +107,11 @@ class ObjectShape {
   std::vector<MadeLevel> made_levels_;   // when first needed
   std::size_t triangles_ = 0;            // of the whole mesh
   std::optional<ContourStrips> strips_;  // made once it is known whether the object is two-sided
+  std::optional<LineStrips> lines_;
+  bool asked_for_lines_ = false;
   std::optional<BorderStrips> borders_;
   std::optional<IntersectionStrips> intersections_;
 
-  double nearest_m_ = 0;
   std::vector<Run> front_runs_;
   Look look_;
 };

@@ -28,8 +28,8 @@ class ObjectPass {
   virtual ~ObjectPass() = default;
 
   virtual const char* name() const = 0;
-  /// How far beyond the mesh it draws, in pixels.
-  virtual double reach_px() const = 0;
+  /// How far beyond the mesh it draws in this frame, in pixels of the pinhole picture; the object has looked.
+  virtual double reach_px(const View& view) const = 0;
   /// False if it only takes away what others drew: then nothing is drawn where no other object is.
   virtual bool leaves_colour() const { return true; }
   /// Draws what is opaque: blending off, depth written.

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/outline/lined.h"
 #include "tests/pipeline/passes/drawing.h"
 #include "tests/pipeline/passes/gl_test.h"
 #include "tests/pipeline/passes/shapes.h"
@@ -12,30 +13,10 @@
 namespace rinkaku::test {
 namespace {
 
-using outline::HullOptions;
-using outline::HullPass;
 using passes::Layer;
 using passes::View;
 
 class Hull : public GlTest {};
-
-// A white body with a red line, so that the two can be measured apart.
-passes::StyledObject lined(const mesh::Mesh& mesh, const glm::dmat4& place, double width_px,
-                           const glm::vec3& colour = {1, 0, 0}) {
-  passes::StyledObject styled = toon(mesh, place);
-  HullOptions options;
-  options.width_px = static_cast<float>(width_px);
-  options.colour = colour;
-  styled.passes.push_back(std::make_unique<HullPass>(*styled.object, options));
-  return styled;
-}
-
-// The area of a colour: the sum of one channel.
-double channel_px(const Layer& layer, int channel) {
-  double sum = 0;
-  for (std::size_t i = static_cast<std::size_t>(channel); i < layer.rgba.size(); i += 4) sum += layer.rgba[i];
-  return sum / 255;
-}
 
 // A ball of a given radius in pixels in the middle of the picture, at a distance.
 glm::dmat4 ball_place(const View& v, double radius_px, double distance_m) {
@@ -107,18 +88,6 @@ TEST_F(Hull, LineHasNoGapsAtHardEdges) {
       }
     }
   }
-}
-
-// The line beside a cube's straight edges: its corners move along their diagonals, so that the line is thinner there
-// than asked for, by 1 / sqrt(2) seen face on, but never thicker.
-TEST_F(Hull, LineAlongACubesEdgesIsBetweenSeventyAndAHundredPercent) {
-  const View v = view(200, 200, 400);
-  const Layer layer = drawn(scene_of(lined(cube(), moved(0.001, 0.0007, 3) * scaled(0.4), 4)), v);
-  double line = 0;
-  for (int x = layer.rect.x_px; x < 100; ++x) line += (at(layer, x, 100)[3] - at(layer, x, 100)[1]) / 255.0;
-  EXPECT_GT(line, 4 * std::numbers::sqrt2 / 2 - 0.1);  // edges within a tenth of a pixel, as measured over cubes
-  EXPECT_LT(line, 4.1);
-  RecordProperty("cube_line_px_of_4", std::to_string(line));
 }
 
 TEST_F(Hull, NearerLineCoversWhatIsBehindAndIsCoveredByWhatIsBefore) {

@@ -90,6 +90,16 @@ TEST(Plan, EachLookRunsOnlyIfAnObjectHasIt) {
   EXPECT_TRUE(plan_of(scene).runs("outline"));
 }
 
+TEST(Plan, CurvatureIsComputedOnlyForLinesThatFollowIt) {
+  Scene scene = drawn_scene();
+  scene.objects.back().outline.emplace();
+  EXPECT_EQ(stage(plan_of(scene), "curvature").why, "no line's width follows curvature");
+  EXPECT_FALSE(plan_of(scene).runs("curvature"));
+  scene.objects.back().outline->method = OutlineScene::Method::Curvature;
+  EXPECT_EQ(stage(plan_of(scene), "curvature").why, "the line's width follows the curvature of 1 object");
+  EXPECT_TRUE(plan_of(scene).runs("curvature"));
+}
+
 TEST(Plan, HoldoutsAreCutOutAndNotShaded) {
   Scene scene = drawn_scene();
   EXPECT_FALSE(plan_of(scene).runs("holdout"));

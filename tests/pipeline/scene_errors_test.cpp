@@ -272,7 +272,24 @@ INSTANTIATE_TEST_SUITE_P(
             "DIR/scene.toml:8:11: 'outline' in [[object]] must be true, false or a table { ... }, found an array of 1"},
         BadScene{"WidthZero", object + "outline = { width_px = 0 }\n",
                  "DIR/scene.toml:8:24: 'width_px' in outline of [[object]] must be a number above 0 and at most 100, "
-                 "found 0"}),
+                 "found 0"},
+        BadScene{
+            "WidthTwice", object + "outline = { width_px = 2, width_m = 0.01 }\n",
+            "DIR/scene.toml:8:37: 'width_m' in outline of [[object]] can't stand beside 'width_px'; keep one of them"},
+        BadScene{"LimitOfAFixedWidth", object + "outline = { width_px = 2, min_px = 1 }\n",
+                 "DIR/scene.toml:8:36: 'min_px' in outline of [[object]] goes with 'width_m'; leave it out, or give "
+                 "'width_m' in place of 'width_px'"},
+        BadScene{"LimitsCrossed", object + "outline = { width_m = 0.01, min_px = 5, max_px = 4 }\n",
+                 "DIR/scene.toml:8:50: 'max_px' in outline of [[object]] must not be below 'min_px'"},
+        BadScene{"UnknownMethod", object + "outline = { method = \"curved\" }\n",
+                 "DIR/scene.toml:8:22: 'method' in outline of [[object]] must be \"uniform\" or \"curvature\", found "
+                 "the text \"curved\""},
+        BadScene{"ExaggeratedUniform", object + "outline = { exaggeration = 2 }\n",
+                 "DIR/scene.toml:8:28: 'exaggeration' in outline of [[object]] goes with method = \"curvature\"; add "
+                 "that, or leave it out"},
+        BadScene{"UnknownSign", object + "outline = { method = \"curvature\", sign = \"thick\" }\n",
+                 "DIR/scene.toml:8:42: 'sign' in outline of [[object]] must be \"magnitude\", \"convex\" or "
+                 "\"concave\", found the text \"thick\""}),
     test_name);
 
 INSTANTIATE_TEST_SUITE_P(

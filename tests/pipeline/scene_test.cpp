@@ -80,6 +80,36 @@ TEST(Scene, ReadsEveryKeyOfAnObject) {
   EXPECT_EQ(second.outline->width_px, OutlineScene{}.width_px);
 }
 
+TEST(Scene, TakesLinesThatFollowCurvature) {
+  const SceneFolder folder;
+  const OutlineScene line = *folder
+                                 .read(object +
+                                       "outline = { width_px = 2, method = \"curvature\", curvature = \"largest\", "
+                                       "sign = \"concave\", exaggeration = 4, saturation = 0.5, curve = 2, "
+                                       "min_factor = 0.1, smoothing = 0, taper_px = 7 }\n")
+                                 .objects[0]
+                                 .outline;
+  EXPECT_EQ(line.method, OutlineScene::Method::Curvature);
+  EXPECT_EQ(line.curvature, OutlineScene::Curvature::Largest);
+  EXPECT_EQ(line.sign, OutlineScene::Sign::Concave);
+  EXPECT_EQ(line.exaggeration, 4);
+  EXPECT_EQ(line.saturation, 0.5);
+  EXPECT_EQ(line.curve, 2);
+  EXPECT_EQ(line.min_factor, 0.1);
+  EXPECT_EQ(line.smoothing, 0);
+  EXPECT_EQ(line.taper_px, 7);
+}
+
+TEST(Scene, TakesLinesInMetres) {
+  const SceneFolder folder;
+  const OutlineScene line =
+      *folder.read(object + "outline = { width_m = 0.002, min_px = 0.5, max_px = 9 }\n").objects[0].outline;
+  EXPECT_EQ(line.width_m, 0.002);
+  EXPECT_EQ(line.min_px, 0.5);
+  EXPECT_EQ(line.max_px, 9);
+  EXPECT_EQ(line.method, OutlineScene::Method::Uniform);
+}
+
 TEST(Scene, TakesOneScaleForAllAxes) {
   const SceneFolder folder;
   EXPECT_EQ(folder.read(object + "scale = -2\n").objects[0].scale, glm::dvec3(-2));

@@ -14,7 +14,7 @@ class HoldoutPass : public ObjectPass {
   explicit HoldoutPass(DrawnObject& object);
 
   const char* name() const override { return "holdout"; }
-  double reach_px() const override { return 1; }
+  double reach_px(const View&) const override { return 1; }
   bool leaves_colour() const override { return false; }
   void draw_surface(const DrawCall& call) override;
   void draw_edges(const DrawCall& call) override;

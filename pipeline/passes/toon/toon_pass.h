@@ -28,7 +28,7 @@ class ToonPass : public ObjectPass {
   ToonPass(DrawnObject& object, const mesh::Mesh& mesh, const ToonOptions& options);
 
   const char* name() const override { return "toon"; }
-  double reach_px() const override { return 1; }
+  double reach_px(const View&) const override { return 1; }
   void draw_surface(const DrawCall& call) override;
   void draw_edges(const DrawCall& call) override;
 
