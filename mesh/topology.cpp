@@ -215,8 +215,9 @@ void point_outline_normals(const FaceNormals& of_face, Topology& out) {
   out.outline_normals.resize(count);
   constexpr double kCancelled = 1e-6;
   for (std::size_t p = 0; p < count; ++p) {
-    glm::dvec3 normal = glm::length(mean[p]) > kCancelled ? glm::normalize(mean[p]) : largest[p];
-    if (glm::length(outward[p]) > kCancelled) normal += glm::normalize(outward[p]);
+    // At a border outwards, in the surface: a part of its normal as well would cancel that out in oblique views.
+    glm::dvec3 normal = glm::length(mean[p]) > kCancelled ? mean[p] : largest[p];
+    if (glm::length(outward[p]) > kCancelled) normal = outward[p];
     const double length = glm::length(normal);
     out.outline_normals[p] = length > kCancelled ? glm::vec3(normal / length) : glm::vec3(0, 0, 1);
   }

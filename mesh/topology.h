@@ -65,8 +65,8 @@ struct Topology {
 ///
 /// A point's outline normal is the mean of its faces' normals weighted by their angle there (Thürmer and Wüthrich,
 /// "Computing vertex normals from polygonal facets", 1998), so hard edges don't open when a hull is pushed along it. On
-/// the boundary the surface's outward direction (in the face, at right angles to the boundary) is added, so that a
-/// hull or feather also grows past an open border. Faces count as `turned`. Where the normals cancel out, the largest
+/// the boundary it is the surface's outward direction (in the face, at right angles to the boundary), so that a hull or
+/// feather grows past an open border in every view. Faces count as `turned`. Where the normals cancel out, the largest
 /// face's is taken.
 /// Preconditions: a mesh as import() gives it: welded, no triangle with two corners on one point.
 /// Cost: about 0.2 microseconds a triangle.
