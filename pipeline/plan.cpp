@@ -78,7 +78,7 @@ Verdict holdout(const Facts& f) {
   if (!f.draws()) return {false, no_object};
   const std::size_t n = f.count([](const ObjectScene& o) { return o.holdout; });
   if (n == 0) return {false, "no object is a holdout"};
-  return {true, objects(n) + " cut out of what is behind"};
+  return {true, n == 1 ? "1 model of a filmed thing hides CG" : std::to_string(n) + " models of filmed things hide CG"};
 }
 
 Verdict outline(const Facts& f) {

@@ -106,7 +106,7 @@ TEST(Plan, HoldoutsAreCutOutAndNotShaded) {
   scene.objects.emplace_back();
   scene.objects.back().holdout = true;
   const Plan plan = plan_of(scene);
-  EXPECT_EQ(stage(plan, "holdout").why, "1 object cut out of what is behind");
+  EXPECT_EQ(stage(plan, "holdout").why, "1 model of a filmed thing hides CG");
   EXPECT_EQ(stage(plan, "toon").why, "1 object toon-shaded");
   EXPECT_FALSE(plan.runs("flat"));
 }
