@@ -30,7 +30,7 @@ TrianglePlanes triangle_planes(const Surface& surface);
 /// Front and back need a margin: the ray from the triangle to each hull vertex rises at least `kMargin` (sine of the
 /// angle) over the plane. What is doubtful is silhouette mesh.
 /// Cost: about 2 ns a triangle and hull vertex. Allocates nothing if `out` has the capacity.
-/// Utsugi et al., "A polygon reduction maintaining silhouettes" (2001), 2.2 and 2.3, equations 1 to 3.
+/// Utsugi et al., "A polygon reduction maintaining silhouettes" (2002), 2.2 and 2.3, equations 1 to 3.
 void classify(const TrianglePlanes& planes, const ViewRegion& region, std::vector<Side>& out);
 
 inline constexpr double kMargin = 1e-3;

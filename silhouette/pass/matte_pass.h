@@ -13,7 +13,7 @@
 namespace rinkaku::silhouette {
 
 /// Draws which pixels an object covers: 1 where a front face lies, 0 elsewhere (Utsugi et al., "A Polygon Reduction
-/// maintaining Silhouettes", 2001).
+/// maintaining Silhouettes", 2002).
 ///
 /// All triangle lists of an object (whole mesh or any region's) index the same points in one vertex buffer, and run
 /// through the same shader with an invariant position, so that a vertex falls on the same spot of the pixel grid
