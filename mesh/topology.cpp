@@ -246,6 +246,19 @@ Topology topology(const Mesh& mesh) {
   return out;
 }
 
+std::vector<std::uint32_t> part_of_triangles(const Mesh& mesh) {
+  std::vector<std::uint32_t> part_of(mesh.triangles.size());
+  for (std::uint32_t p = 0; p < mesh.parts.size(); ++p) {
+    std::fill_n(part_of.begin() + mesh.parts[p].first_triangle, mesh.parts[p].triangle_count, p);
+  }
+  return part_of;
+}
+
+std::uint32_t opposite_point(const Topology& topology, const Edge& edge, std::uint32_t face) {
+  const glm::uvec3& f = topology.faces[face];
+  return f.x + f.y + f.z - edge.a - edge.b;
+}
+
 std::uint32_t corner_at(const Mesh& mesh, std::uint32_t triangle, std::uint32_t point) {
   const glm::uvec3& t = mesh.triangles[triangle];
   for (int k = 0; k < 2; ++k) {

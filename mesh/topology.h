@@ -72,6 +72,12 @@ struct Topology {
 /// Cost: about 0.2 microseconds a triangle.
 Topology topology(const Mesh& mesh);
 
+/// Per triangle of the mesh: its part.
+std::vector<std::uint32_t> part_of_triangles(const Mesh& mesh);
+
+/// The point of a face that does not lie on one of its edges.
+std::uint32_t opposite_point(const Topology& topology, const Edge& edge, std::uint32_t face);
+
 /// The vertex that a triangle of the mesh has at a welded point. Precondition: it has one there.
 std::uint32_t corner_at(const Mesh& mesh, std::uint32_t triangle, std::uint32_t point);
 

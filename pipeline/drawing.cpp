@@ -36,39 +36,13 @@ passes::ToonOptions toon_options(const ObjectScene& object, const LightScene& li
   return options;
 }
 
-outline::CurvatureKind kind(OutlineScene::Curvature curvature) {
-  switch (curvature) {
-    case OutlineScene::Curvature::Mean:
-      return outline::CurvatureKind::Mean;
-    case OutlineScene::Curvature::Gauss:
-      return outline::CurvatureKind::Gauss;
-    case OutlineScene::Curvature::Largest:
-      return outline::CurvatureKind::Largest;
-    case OutlineScene::Curvature::Smallest:
-      return outline::CurvatureKind::Smallest;
-  }
-  return {};
-}
-
-outline::CurvatureSign sign(OutlineScene::Sign sign) {
-  switch (sign) {
-    case OutlineScene::Sign::Magnitude:
-      return outline::CurvatureSign::Magnitude;
-    case OutlineScene::Sign::Convex:
-      return outline::CurvatureSign::Convex;
-    case OutlineScene::Sign::Concave:
-      return outline::CurvatureSign::Concave;
-  }
-  return {};
-}
-
 // Per welded point; empty where the width doesn't follow the shape.
 std::vector<float> line_factors(const ObjectScene& object, const mesh::Mesh& mesh) {
   if (!object.outline || object.outline->method != OutlineScene::Method::Curvature) return {};
   const OutlineScene& line = *object.outline;
   outline::WidthOptions options;
-  options.kind = kind(line.curvature);
-  options.sign = sign(line.sign);
+  options.kind = line.curvature;
+  options.sign = line.sign;
   options.exaggeration = static_cast<float>(line.exaggeration);
   options.saturation = static_cast<float>(line.saturation);
   options.curve = static_cast<float>(line.curve);

@@ -10,6 +10,7 @@
 
 #include <glm/vec3.hpp>
 
+#include "outline/width_options.h"
 #include "pipeline/frame/picture_format.h"
 
 namespace rinkaku::pipeline {
@@ -68,9 +69,11 @@ struct OutlineScene {
   double taper_px = 0;                             ///< 0: lines end blunt; by default 15 with the method Curvature
   std::array<double, 3> colour{0.07, 0.05, 0.09};  ///< sRGB
   enum class Method { Uniform, Curvature } method = Method::Uniform;
-  /// For the method Curvature; see outline/line_width.h.
-  enum class Curvature { Mean, Gauss, Largest, Smallest } curvature = Curvature::Mean;
-  enum class Sign { Magnitude, Convex, Concave } sign = Sign::Magnitude;
+  // For the method Curvature; see outline/width_options.h.
+  using Curvature = outline::CurvatureKind;
+  using Sign = outline::CurvatureSign;
+  Curvature curvature = Curvature::Mean;
+  Sign sign = Sign::Magnitude;
   double exaggeration = 2;
   double saturation = 1;
   double curve = 1;

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <numeric>
-#include <utility>
 
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
@@ -30,11 +28,9 @@ bool is_crease(const mesh::Mesh& mesh, const mesh::Edge& edge) {
 // from the edge.
 glm::dvec3 across(const mesh::Topology& topology, const mesh::Edge& edge, std::uint32_t face,
                   const glm::dmat3& world_from_object, const glm::dmat3& object_from_world) {
-  const glm::uvec3& f = topology.faces[face];
-  const std::uint32_t opposite = f.x + f.y + f.z - edge.a - edge.b;
   const glm::dvec3 a = world_from_object * glm::dvec3(topology.points[edge.a]);
   const glm::dvec3 along = world_from_object * glm::dvec3(topology.points[edge.b]) - a;
-  const glm::dvec3 to = world_from_object * glm::dvec3(topology.points[opposite]) - a;
+  const glm::dvec3 to = world_from_object * glm::dvec3(topology.points[mesh::opposite_point(topology, edge, face)]) - a;
   const double squared = glm::dot(along, along);
   const glm::dvec3 upright = squared > 0 ? to - along * (glm::dot(to, along) / squared) : to;
   const glm::dvec3 direction = object_from_world * upright;
@@ -46,10 +42,7 @@ glm::dvec3 across(const mesh::Topology& topology, const mesh::Edge& edge, std::u
 
 BorderStrips::BorderStrips(const mesh::Mesh& mesh, const mesh::Topology& topology,
                            std::span<const ShapeVertex> vertices, const glm::dmat4& world_from_object, bool creases) {
-  std::vector<std::uint32_t> part_of(mesh.triangles.size());
-  for (std::uint32_t p = 0; p < mesh.parts.size(); ++p) {
-    std::fill_n(part_of.begin() + mesh.parts[p].first_triangle, mesh.parts[p].triangle_count, p);
-  }
+  const std::vector<std::uint32_t> part_of = mesh::part_of_triangles(mesh);
   struct Border {
     std::uint32_t part, edge, of, over;  // the face whose colour it has, and the one it lies on
   };
@@ -92,11 +85,7 @@ void BorderStrips::collect(const mesh::Contour& contour) {
   for (std::uint32_t q = 0; q < quads_.size(); ++q) {
     const Quad& quad = quads_[q];
     if (contour.front[quad.face0] == 0 || contour.front[quad.face1] == 0) continue;
-    if (runs_.empty() || runs_.back().part != quad.part) {
-      runs_.push_back({quad.part, static_cast<std::uint32_t>(indices_.size()), 0, false});
-    }
-    for (std::uint32_t corner : {0u, 1u, 2u, 2u, 1u, 3u}) indices_.push_back(4 * q + corner);
-    runs_.back().index_count += 6;
+    append_quad(quad.part, 4 * q, indices_, runs_);
   }
 }
 

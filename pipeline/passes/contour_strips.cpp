@@ -12,8 +12,7 @@ namespace {
 bool is_hollow(const mesh::Topology& topology, const mesh::Edge& edge) {
   if ((edge.flags & (mesh::Edge::kNonManifold | mesh::Edge::kInconsistent)) != 0) return false;
   if (topology.component_two_sided[topology.component[edge.face0]] != 0) return false;
-  const glm::uvec3& other = topology.faces[edge.face1];
-  const std::uint32_t opposite = other.x + other.y + other.z - edge.a - edge.b;
+  const std::uint32_t opposite = mesh::opposite_point(topology, edge, edge.face1);
   const glm::vec3 away = topology.points[opposite] - topology.points[edge.a];
   constexpr float least = 1e-4f;  // of the length: flat within rounding counts as convex
   return glm::dot(topology.face_normals[edge.face0], away) > least * glm::length(away);
@@ -23,10 +22,7 @@ bool is_hollow(const mesh::Topology& topology, const mesh::Edge& edge) {
 
 ContourStrips::ContourStrips(const mesh::Mesh& mesh, const mesh::Topology& topology, bool two_sided)
     : parts_(mesh.parts.size()) {
-  std::vector<std::uint32_t> part_of(mesh.triangles.size());
-  for (std::uint32_t p = 0; p < mesh.parts.size(); ++p) {
-    std::fill_n(part_of.begin() + mesh.parts[p].first_triangle, mesh.parts[p].triangle_count, p);
-  }
+  const std::vector<std::uint32_t> part_of = mesh::part_of_triangles(mesh);
   edges_.reserve(topology.edges.size());
   for (const mesh::Edge& edge : topology.edges) {
     EdgeVertices e{edge.vertex_a,       edge.vertex_b, edge.vertex_a, edge.vertex_b, part_of[edge.face0],
@@ -69,9 +65,6 @@ void ContourStrips::collect_pieces(const mesh::Contour& contour) {
 }
 
 void ContourStrips::emit(std::span<const ShapeVertex> vertices, const Piece& piece) {
-  if (runs_.empty() || runs_.back().part != piece.part) {
-    runs_.push_back({piece.part, static_cast<std::uint32_t>(indices_.size()), 0, false});
-  }
   ShapeVertex a = vertices[piece.from], b = vertices[piece.to];
   if (piece.from_behind) {
     for (int k = 0; k < 3; ++k) {
@@ -85,8 +78,7 @@ void ContourStrips::emit(std::span<const ShapeVertex> vertices, const Piece& pie
   a.outline_normal[3] = b.outline_normal[3] = 32767;
   strip_vertices_.push_back(a);
   strip_vertices_.push_back(b);
-  for (std::uint32_t corner : {0u, 1u, 2u, 2u, 1u, 3u}) indices_.push_back(base + corner);
-  runs_.back().index_count += 6;
+  append_quad(piece.part, base, indices_, runs_);
 }
 
 }  // namespace rinkaku::passes

@@ -62,10 +62,7 @@ IntersectionStrips::IntersectionStrips(const mesh::Mesh& mesh, const mesh::Topol
                                        std::span<const mesh::Cut> cuts, const glm::dmat4& world_from_object)
     : object_from_world_(glm::inverse(world_from_object)) {
   if (cuts.empty()) return;
-  std::vector<std::uint32_t> part_of(mesh.triangles.size());
-  for (std::uint32_t p = 0; p < mesh.parts.size(); ++p) {
-    std::fill_n(part_of.begin() + mesh.parts[p].first_triangle, mesh.parts[p].triangle_count, p);
-  }
+  const std::vector<std::uint32_t> part_of = mesh::part_of_triangles(mesh);
   const glm::dmat3 world_from_normal = glm::transpose(glm::dmat3(object_from_world_));
   std::vector<std::uint32_t> number_of(topology.points.size(), mesh::kNone);
   const auto number = [&](std::uint32_t point) {
@@ -186,9 +183,6 @@ void IntersectionStrips::place(const TwoFaces& two, const Eye& eye, bool first_f
 }
 
 void IntersectionStrips::emit(const Quad& quad, const Placed& placed, bool from_behind) {
-  if (runs_.empty() || runs_.back().part != quad.part) {
-    runs_.push_back({quad.part, static_cast<std::uint32_t>(indices_.size()), 0, false});
-  }
   const auto base = static_cast<std::uint32_t>(vertices_.size());
   for (std::int16_t rim : {0, 32767}) {
     for (int end : {0, 1}) {
@@ -204,8 +198,7 @@ void IntersectionStrips::emit(const Quad& quad, const Placed& placed, bool from_
       vertices_.push_back(v);
     }
   }
-  for (std::uint32_t corner : {0u, 1u, 2u, 2u, 1u, 3u}) indices_.push_back(base + corner);
-  runs_.back().index_count += 6;
+  append_quad(quad.part, base, indices_, runs_);
 }
 
 }  // namespace rinkaku::passes

@@ -15,4 +15,12 @@ std::array<std::uint8_t, 4> unorm(const glm::vec4& v) {
   return {code(v.x), code(v.y), code(v.z), code(v.w)};
 }
 
+void append_quad(std::uint32_t part, std::uint32_t first, std::vector<std::uint32_t>& indices, std::vector<Run>& runs) {
+  if (runs.empty() || runs.back().part != part) {
+    runs.push_back({part, static_cast<std::uint32_t>(indices.size()), 0, false});
+  }
+  for (std::uint32_t corner : {0u, 1u, 2u, 2u, 1u, 3u}) indices.push_back(first + corner);
+  runs.back().index_count += 6;
+}
+
 }  // namespace rinkaku::passes

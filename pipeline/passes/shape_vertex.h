@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <vector>
 
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
@@ -42,5 +43,9 @@ struct Run {
   std::uint32_t index_count = 0;
   bool even = false;  ///< no triangle's colour changes over it
 };
+
+/// Adds the two triangles of a strip's quad: the vertices from `first` on are two on the edge and the same two at the
+/// rim. Opens a run where the last one is another part's.
+void append_quad(std::uint32_t part, std::uint32_t first, std::vector<std::uint32_t>& indices, std::vector<Run>& runs);
 
 }  // namespace rinkaku::passes
