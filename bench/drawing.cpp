@@ -20,7 +20,7 @@
 #include "pipeline/gl/context.h"
 #include "pipeline/passes/composite/lens_map.h"
 #include "pipeline/passes/layer_renderer.h"
-#include "pipeline/scene.h"
+#include "pipeline/scene/scene.h"
 #include "pipeline/track/camera_file.h"
 #include "pipeline/track/pose_file.h"
 

@@ -120,6 +120,21 @@ std::vector<std::optional<PreparedObject>> prepare_all(const Scene& scene) {
   return prepared;
 }
 
+// One object after the other, as baking takes all cores.
+void use_regions(const Scene& scene, std::span<std::optional<PreparedObject>> all, const RegionOptions& options) {
+  std::vector<PlacedBox> boxes;
+  for (const auto& one : all) {
+    boxes.push_back({mesh::bounding_box(one->imported.mesh.positions), one->shape.world_from_object()});
+  }
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const ObjectScene& object = scene.objects[i];
+    if (region_use(object) == RegionUse::None) continue;
+    bool apart = true;
+    for (std::size_t k = 0; k < boxes.size(); ++k) apart = apart && (k == i || are_apart(boxes[i], boxes[k]));
+    all[i]->shape.use_regions(region_knowledge(object, all[i]->imported.mesh, apart, options));
+  }
+}
+
 }  // namespace
 
 mesh::Imported load_mesh(const ObjectScene& object) {
@@ -135,11 +150,12 @@ Drawing::~Drawing() {
   renderer.reset();
 }
 
-Drawing make_drawing(const Scene& scene, const passes::PixelRect& picture) {
+Drawing make_drawing(const Scene& scene, const passes::PixelRect& picture, const RegionOptions& regions) {
   auto preparing = std::async(std::launch::async, prepare_all, std::cref(scene));
   Drawing drawing;
   drawing.context = gl::Context::headless();
   std::vector<std::optional<PreparedObject>> all = preparing.get();
+  use_regions(scene, all, regions);
   std::vector<passes::StyledObject> styled;
   for (std::size_t i = 0; i < all.size(); ++i) {
     const ObjectScene& object = scene.objects[i];

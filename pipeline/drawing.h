@@ -6,6 +6,7 @@
 
 #include "mesh/import.h"
 #include "pipeline/passes/layer.h"
+#include "pipeline/regions.h"
 #include "pipeline/scene/scene.h"
 
 namespace rinkaku::gl {
@@ -32,7 +33,7 @@ struct Drawing {
 
 /// Reads the meshes, on threads of their own while the context is made. Shaders of passes that no object asks for are
 /// not compiled. `picture` is the part of the pinhole picture that can be seen.
-/// Throws Error: Input for a mesh, Runtime if there is no OpenGL 4.5.
-Drawing make_drawing(const Scene& scene, const passes::PixelRect& picture);
+/// Throws Error: Input for a mesh or its regions, Runtime if there is no OpenGL 4.5.
+Drawing make_drawing(const Scene& scene, const passes::PixelRect& picture, const RegionOptions& regions = {});
 
 }  // namespace rinkaku::pipeline

@@ -23,6 +23,7 @@ struct RenderOptions {
   std::int64_t end_frame = std::numeric_limits<std::int64_t>::max();  ///< exclusive
   std::string layers_folder{};                                        ///< empty: layers are not written
   bool overwrite = false;
+  std::function<void(const std::string& line)> tell{};  ///< what set-up has to say at once, as it takes long
 };
 
 struct RenderReport {

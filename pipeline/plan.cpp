@@ -74,6 +74,20 @@ Verdict flat(const Facts& f) {
   return {true, objects(n) + " drawn flat (toon = false)"};
 }
 
+Verdict regions(const Facts& f) {
+  if (!f.draws()) return {false, no_object};
+  const std::size_t faces = f.count([](const ObjectScene& o) { return region_use(o) == RegionUse::Faces; });
+  const std::size_t cover = f.count([](const ObjectScene& o) { return region_use(o) == RegionUse::Cover; });
+  if (faces + cover == 0) return {false, "no object has regions"};
+  std::string why;
+  if (cover > 0) why = objects(cover) + " from few triangles, as nothing inside the shape shows: the matte product, or "
+                       "depth where CG may cut in";
+  if (faces > 0) {
+    why += (cover > 0 ? "; " : "") + objects(faces) + " without the back mesh, as shading or lines show: the colour product";
+  }
+  return {true, why};
+}
+
 Verdict holdout(const Facts& f) {
   if (!f.draws()) return {false, no_object};
   const std::size_t n = f.count([](const ObjectScene& o) { return o.holdout; });
@@ -146,9 +160,10 @@ const std::vector<Kind>& kinds() {
       {"toon", toon, {"import"}},
       {"flat", flat, {"import"}},
       {"holdout", holdout, {"import"}},
+      {"regions", regions, {"import"}},
       {"curvature", curvature, {"import"}},
       {"outline", outline, {"import", "curvature"}},
-      {"draw", draw, {"decode", "track", "smooth", "toon", "flat", "holdout", "outline"}},
+      {"draw", draw, {"decode", "track", "smooth", "toon", "flat", "holdout", "regions", "outline"}},
       {"lens", lens, {"draw"}},
       {"composite", composite, {"decode", "draw", "lens"}},
       {"unmultiply", unmultiply, {"draw", "lens"}},
@@ -163,6 +178,12 @@ const std::vector<Kind>& kinds() {
 
 bool Plan::runs(std::string_view name) const {
   return std::any_of(stages.begin(), stages.end(), [name](const Stage& s) { return s.name == name && s.runs; });
+}
+
+RegionUse region_use(const ObjectScene& object) {
+  if (!object.regions) return RegionUse::None;
+  const bool one_colour = object.colour && !object.toon && !object.outline;
+  return object.holdout || one_colour ? RegionUse::Cover : RegionUse::Faces;
 }
 
 Plan make_plan(const Scene& scene, const CameraModel* camera, const Request& request) {

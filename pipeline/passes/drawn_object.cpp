@@ -70,6 +70,11 @@ void DrawnObject::upload() {
 }
 
 std::span<const Run> DrawnObject::bind_front() {
+  if (shape_.last_look().cull_back_faces) {
+    glEnable(GL_CULL_FACE);
+  } else {
+    glDisable(GL_CULL_FACE);
+  }
   glFrontFace(shape_.mirrored() ? GL_CCW : GL_CW);  // window rows run downwards (see clip_from_camera)
   glBindVertexArray(mesh_array_.name());
   return shape_.last_look().front_runs;

@@ -8,6 +8,7 @@
 #include <glm/vec3.hpp>
 
 #include "pipeline/scene/outline.h"
+#include "pipeline/scene/regions.h"
 #include "pipeline/scene/toon.h"
 #include "pipeline/toml/table.h"
 
@@ -31,6 +32,7 @@ struct ObjectScene {
   std::optional<OutlineScene> outline;
   /// The model of a filmed thing: not drawn, but CG behind it is hidden.
   bool holdout = false;
+  std::optional<RegionsScene> regions;
 };
 
 /// With the schemas of the object's own tables.
