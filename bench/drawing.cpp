@@ -5,6 +5,8 @@
 //
 // Scenes give their poses as a file.
 
+#include "pipeline/drawing.h"
+
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
@@ -15,7 +17,6 @@
 #include <variant>
 #include <vector>
 
-#include "pipeline/drawing.h"
 #include "pipeline/frame/error.h"
 #include "pipeline/gl/context.h"
 #include "pipeline/passes/composite/lens_map.h"

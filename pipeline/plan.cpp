@@ -80,10 +80,13 @@ Verdict regions(const Facts& f) {
   const std::size_t cover = f.count([](const ObjectScene& o) { return region_use(o) == RegionUse::Cover; });
   if (faces + cover == 0) return {false, "no object has regions"};
   std::string why;
-  if (cover > 0) why = objects(cover) + " from few triangles, as nothing inside the shape shows: the matte product, or "
-                       "depth where CG may cut in";
+  if (cover > 0)
+    why = objects(cover) +
+          " from few triangles, as nothing inside the shape shows: the matte product, or "
+          "depth where CG may cut in";
   if (faces > 0) {
-    why += (cover > 0 ? "; " : "") + objects(faces) + " without the back mesh, as shading or lines show: the colour product";
+    why += (cover > 0 ? "; " : "") + objects(faces) +
+           " without the back mesh, as shading or lines show: the colour product";
   }
   return {true, why};
 }

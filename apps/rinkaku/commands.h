@@ -72,6 +72,7 @@ struct BakeCall {
   int shells = 1;
   double inner_radii = 1.5;
   double depth_radii = 0;
+  bool drop_hidden = false;
   bool force = false;
   bool json = false;
 };

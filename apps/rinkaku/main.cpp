@@ -165,6 +165,8 @@ struct CommandLine {
                     "Add lists that keep the depth within this distance, in radii of the object; 0: none")
         ->check(CLI::Range(0.0, 1.0))
         ->capture_default_str();
+    sub->add_flag("--drop-hidden", c.drop_hidden,
+                  "Leave out of mattes what the front mesh hides from every eye of a region; takes twice as long");
     add_force(sub, c.force);
     add_json(sub, c.json);
   }

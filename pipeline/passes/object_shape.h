@@ -45,7 +45,7 @@ struct Look {
   float overlap_px = 0;
   std::span<const std::uint32_t> front;  ///< vertex indices of the triangles to draw: those that face the eye
   std::span<const Run> front_runs;
-  bool cull_back_faces = false;  ///< some of `front` may turn their back on the eye
+  bool cull_back_faces = false;                 ///< some of `front` may turn their back on the eye
   std::span<const ShapeVertex> strip_vertices;  ///< the contour's quads, see ContourStrips
   std::span<const std::uint32_t> strip_indices;
   std::span<const Run> strip_runs;

@@ -111,6 +111,28 @@ TEST(Plan, HoldoutsAreCutOutAndNotShaded) {
   EXPECT_FALSE(plan.runs("flat"));
 }
 
+TEST(Plan, RegionsProductFollowsFromWhatShowsOfAnObject) {
+  Scene scene = drawn_scene();
+  EXPECT_EQ(stage(plan_of(scene), "regions").why, "no object has regions");
+  EXPECT_EQ(region_use(scene.objects[0]), RegionUse::None);
+  scene.objects[0].regions.emplace();
+  EXPECT_EQ(region_use(scene.objects[0]), RegionUse::Faces) << "shaded";
+  EXPECT_EQ(stage(plan_of(scene), "regions").why,
+            "1 object without the back mesh, as shading or lines show: the colour product");
+  scene.objects.emplace_back();
+  scene.objects[1].holdout = true;
+  scene.objects[1].regions.emplace();
+  EXPECT_EQ(region_use(scene.objects[1]), RegionUse::Cover);
+  EXPECT_TRUE(plan_of(scene).runs("regions"));
+  ObjectScene flat;
+  flat.regions.emplace();
+  EXPECT_EQ(region_use(flat), RegionUse::Faces) << "its materials may have many colours";
+  flat.colour = {1, 0, 0};
+  EXPECT_EQ(region_use(flat), RegionUse::Cover);
+  flat.outline.emplace();
+  EXPECT_EQ(region_use(flat), RegionUse::Faces) << "lines run inside its shape";
+}
+
 TEST(Plan, LensRunsOnlyForADistortedCameraThatSeesCg) {
   EXPECT_FALSE(plan_of(drawn_scene(), pinhole()).runs("lens"));
   EXPECT_TRUE(plan_of(drawn_scene(), bent()).runs("lens"));

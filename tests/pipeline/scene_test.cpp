@@ -51,6 +51,17 @@ TEST(Scene, FillsInDefaults) {
   EXPECT_EQ(scene.output.content, OutputScene::Content::Composite);
 }
 
+TEST(Scene, RegionsAreAFileOrTheCache) {
+  const SceneFolder folder;
+  EXPECT_FALSE(folder.read(object).objects[0].regions);
+  EXPECT_FALSE(folder.read(object + "regions = false\n").objects[0].regions);
+  EXPECT_EQ(folder.read(object + "regions = true\n").objects[0].regions.value().file, "");
+  const Scene named = folder.read(object + "regions = \"baked/cow.rgn\"\n");
+  EXPECT_EQ(named.objects[0].regions.value().file, folder / "baked/cow.rgn") << "it needn't be there yet";
+  EXPECT_EQ(folder.message(object + "regions = 3\n"),
+            "DIR/scene.toml:8:11: 'regions' in [[object]] must be true, false or a path, found 3");
+}
+
 TEST(Scene, ReadsEveryKeyOfAnObject) {
   const SceneFolder folder;
   const Scene scene = folder.read(

@@ -31,7 +31,8 @@ void expect_the_same_found(mesh::Soup soup) {
   std::size_t doubtful = 0;
   for (std::uint32_t r = 0; r < file->regions(); ++r) {
     for (int i = 0; i < 4; ++i) {
-      const glm::dvec3 unit_eye = i == 3 ? glm::dvec3(0.3, 0.2, 1.1) : test::eye_in(view_region(options.space, r), random);
+      const glm::dvec3 unit_eye =
+          i == 3 ? glm::dvec3(0.3, 0.2, 1.1) : test::eye_in(view_region(options.space, r), random);
       const glm::dvec3 eye = surface.frame.to_mesh(unit_eye);
       const mesh::KnownFaces* known = faces.at(eye);
       const mesh::Contour& expected = alone.find(eye);
