@@ -135,17 +135,17 @@ Drawing::~Drawing() {
   renderer.reset();
 }
 
-Drawing make_drawing(const Scene& scene, const passes::PixelRect& picture) {
-  auto preparing = std::async(std::launch::async, prepare_all, std::cref(scene));
-  Drawing drawing;
-  drawing.context = gl::Context::headless();
-  std::vector<std::optional<PreparedObject>> all = preparing.get();
+namespace {
+
+// The objects on the GPU with their passes; what their import had to say goes to `notices`.
+std::vector<passes::StyledObject> style(const Scene& scene, std::vector<std::optional<PreparedObject>> all,
+                                        std::vector<std::string>& notices) {
   std::vector<passes::StyledObject> styled;
   for (std::size_t i = 0; i < all.size(); ++i) {
     const ObjectScene& object = scene.objects[i];
     PreparedObject& prepared = *all[i];
     for (const std::string& warning : prepared.imported.summary.warnings) {
-      drawing.notices.push_back(object.mesh.string() + ": " + warning);
+      notices.push_back(object.mesh.string() + ": " + warning);
     }
     passes::StyledObject one;
     one.object = std::make_unique<passes::DrawnObject>(std::move(prepared.shape));
@@ -158,8 +158,25 @@ Drawing make_drawing(const Scene& scene, const passes::PixelRect& picture) {
     add_outline(one.passes, *one.object, object, prepared.line_factors);
     styled.push_back(std::move(one));
   }
-  drawing.renderer = std::make_unique<passes::LayerRenderer>(std::move(styled), picture);
+  return styled;
+}
+
+}  // namespace
+
+Drawing make_drawing(const Scene& scene, const passes::PixelRect& picture) {
+  auto preparing = std::async(std::launch::async, prepare_all, std::cref(scene));
+  Drawing drawing;
+  drawing.context = gl::Context::headless();
+  drawing.picture = picture;
+  drawing.renderer =
+      std::make_unique<passes::LayerRenderer>(style(scene, preparing.get(), drawing.notices), drawing.picture);
   return drawing;
+}
+
+void redraw(Drawing& drawing, const Scene& scene) {
+  std::vector<std::string> notices;  // said already when the run began
+  std::vector<passes::StyledObject> styled = style(scene, prepare_all(scene), notices);
+  drawing.renderer = std::make_unique<passes::LayerRenderer>(std::move(styled), drawing.picture);
 }
 
 }  // namespace rinkaku::pipeline

@@ -27,6 +27,7 @@ struct Drawing {
   Drawing(Drawing&&) noexcept;
   std::unique_ptr<gl::Context> context;
   std::unique_ptr<passes::LayerRenderer> renderer;
+  passes::PixelRect picture;
   std::vector<std::string> notices;  ///< what the meshes' import had to say
 };
 
@@ -34,5 +35,8 @@ struct Drawing {
 /// not compiled. `picture` is the part of the pinhole picture that can be seen.
 /// Throws Error: Input for a mesh, Runtime if there is no OpenGL 4.5.
 Drawing make_drawing(const Scene& scene, const passes::PixelRect& picture);
+/// Draws the scene's objects under its light from now on, in the context that there is. The calling thread waits for
+/// the meshes' import; nothing changes if it throws, as make_drawing() does.
+void redraw(Drawing& drawing, const Scene& scene);
 
 }  // namespace rinkaku::pipeline

@@ -38,17 +38,29 @@ Line::Decode decoder(source::Source& source, const RenderOptions& options, const
   };
 }
 
+// What the watcher wants drawn from this frame on; what can't be drawn is told to it, and nothing changes.
+void take_change(Watcher& watcher, std::int64_t frame, Drawing& drawing) {
+  const std::optional<Scene> changed = watcher.changed(frame);
+  if (!changed) return;
+  try {
+    redraw(drawing, *changed);
+  } catch (const Error& error) {
+    watcher.refused(error.what());
+  }
+}
+
 }  // namespace
 
 RenderReport render(const Prepared& prepared, const RenderOptions& options, const std::atomic<bool>& stop,
-                    const Progress& progress) {
+                    const Progress& progress, Watcher* watcher) {
   const Scene& scene = prepared.scene;
   const Plan& plan = prepared.plan;
   RenderReport result;
   result.output = scene.output.path;
 
   // Set-up, from the source to the sink: whatever is wrong is found before anything is written.
-  const std::unique_ptr<source::Source> source = open_source(prepared);
+  std::unique_ptr<source::Source> source = open_source(prepared);
+  if (watcher) source = watcher->through(std::move(source));
   const source::Description& described = source->description();
   result.width_px = described.format.width_px;
   result.height_px = described.format.height_px;
@@ -58,7 +70,10 @@ RenderReport render(const Prepared& prepared, const RenderOptions& options, cons
   std::unique_ptr<track::Tracker> tracker;
   if (plan.runs("track")) {
     tracker = make_tracker(prepared, described);
-    line.add(Group::Track, "track", [&](Work& work) { work.pose = tracker->track(work.frame); });
+    line.add(Group::Track, "track", [&, last = std::optional<TrackedPose>()](Work& work) mutable {
+      if (!work.frame.repeated) last = tracker->track(work.frame);
+      work.pose = last;
+    });
   }
 
   std::optional<passes::LensMap> lens;
@@ -72,6 +87,7 @@ RenderReport render(const Prepared& prepared, const RenderOptions& options, cons
     line.add(Group::Draw, "draw", [&](Work& work) {
       work.layer = spent.take();
       work.layer.rect = {};
+      if (watcher) take_change(*watcher, work.frame.number, *drawing);
       if (!work.pose || work.pose->opacity <= 0) return;
       ++result.posed_frames;
       drawing->renderer->draw({*prepared.camera, work.pose->camera_from_world}, work.layer);
@@ -84,11 +100,12 @@ RenderReport render(const Prepared& prepared, const RenderOptions& options, cons
       std::swap(work.layer, distorted);
     });
   }
+  if (watcher) line.add(Group::Composite, "watch", [&](Work& work) { watcher->drawn(work); });
   FramePool pool;
   passes::Blender blender;
   auto opacity = [](const Work& work) { return work.pose ? work.pose->opacity : 0.0; };
-  const Output output = open_output(prepared, options, described);
-  Output layers;
+  Output output, layers;
+  if (plan.runs("encode")) output = open_output(prepared, options, described);
   if (plan.runs("layers")) {
     layers = open_layers(prepared, options, described);
     line.add(Group::Composite, "layers", [&](Work& work) {
@@ -107,18 +124,23 @@ RenderReport render(const Prepared& prepared, const RenderOptions& options, cons
     line.add(Group::Composite, "unmultiply",
              [&](Work& work) { work.frame = straight_alpha_frame(work.frame, work.layer, opacity(work), pool); });
   }
+  if (watcher) line.add(Group::Composite, "show", [&](Work& work) { watcher->finished(work); });
   line.add(Group::Encode, "encode", [&](Work& work) {
-    output.sink->write(work.frame);
+    if (output.sink && !work.frame.repeated) output.sink->write(work.frame);
     spent.give_back(std::move(work.layer));
   });
 
   const auto start = std::chrono::steady_clock::now();
   const std::int64_t total = frames_expected(described, options);
   const std::int64_t skipped = skip_to(*source, options.first_frame, stop);
-  result.frames = line.run(decoder(*source, options, stop), [&, done = std::int64_t{0}]() mutable {
+  if (watcher) watcher->started(*source, line);
+  const Line::Drawn drawn_one = [&, done = std::int64_t{0}]() mutable {
     if (progress) progress(++done, total);
-  });
+  };
+  result.frames = line.run(decoder(*source, options, stop), drawn_one,
+                           described.live ? Pace::NewestFrame : Pace::EveryFrame);
   result.interrupted = stop;
+  result.dropped = line.dropped();
 
   if (result.frames == 0 && !result.interrupted) {
     throw no_frame_error(described, options, skipped);

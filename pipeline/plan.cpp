@@ -128,7 +128,15 @@ Verdict copy_streams(const Facts& f) {
   return {true, "sound and other streams are copied from the input"};
 }
 
-Verdict encode(const Facts&) { return {true, "frames go to the output"}; }
+Verdict show(const Facts& f) {
+  if (!f.request.watched) return {false, "frames are shown by play and live only"};
+  return {true, "frames are shown in a window"};
+}
+
+Verdict encode(const Facts& f) {
+  if (f.request.watched && f.scene.output.path.empty()) return {false, "nothing is recorded"};
+  return {true, "frames go to the output"};
+}
 
 // The table of stages, in the order a frame meets them. A new pass adds its line here.
 struct Kind {
@@ -154,6 +162,7 @@ const std::vector<Kind>& kinds() {
       {"unmultiply", unmultiply, {"draw", "lens"}},
       {"layers", layers, {"draw", "lens"}},
       {"copy-streams", copy_streams, {}},
+      {"show", show, {"decode", "composite", "unmultiply"}},
       {"encode", encode, {"decode", "composite", "unmultiply", "copy-streams"}},
   };
   return all;
@@ -167,7 +176,7 @@ bool Plan::runs(std::string_view name) const {
 
 Plan make_plan(const Scene& scene, const CameraModel* camera, const Request& request) {
   const Facts facts{scene, camera, request};
-  std::set<std::string_view> asked_for = {"encode", "layers"};  // the sinks
+  std::set<std::string_view> asked_for = {"encode", "layers", "show"};  // the sinks
   Plan plan;
   for (auto kind = kinds().rbegin(); kind != kinds().rend(); ++kind) {
     Stage stage;

@@ -97,6 +97,7 @@ Prepared prepare(Scene scene, const RenderOptions& options) {
   Prepared prepared;
   if (!scene.plate.camera.empty()) prepared.camera = track::read_camera(scene.plate.camera);
   Request request;
+  request.watched = options.watched;
   request.layers = !options.layers_folder.empty();
   request.no_streams_because = no_streams_because(scene.plate.input, scene.output.path);
   prepared.plan = make_plan(scene, prepared.camera ? &*prepared.camera : nullptr, request);
