@@ -131,13 +131,10 @@ ColourTags colour_of(const v4l2_pix_format& format) {
   ColourTags tags;
   const __u32 space = format.colorspace;
   if (space == V4L2_COLORSPACE_DEFAULT) return tags;
-  const __u32 encoding =
-      format.ycbcr_enc == V4L2_YCBCR_ENC_DEFAULT ? V4L2_MAP_YCBCR_ENC_DEFAULT(space) : format.ycbcr_enc;
-  const __u32 transfer =
-      format.xfer_func == V4L2_XFER_FUNC_DEFAULT ? V4L2_MAP_XFER_FUNC_DEFAULT(space) : format.xfer_func;
-  const __u32 range = format.quantization == V4L2_QUANTIZATION_DEFAULT
-                          ? V4L2_MAP_QUANTIZATION_DEFAULT(false, space, encoding)
-                          : format.quantization;
+  __u32 encoding = format.ycbcr_enc, transfer = format.xfer_func, range = format.quantization;
+  if (encoding == V4L2_YCBCR_ENC_DEFAULT) encoding = V4L2_MAP_YCBCR_ENC_DEFAULT(space);
+  if (transfer == V4L2_XFER_FUNC_DEFAULT) transfer = V4L2_MAP_XFER_FUNC_DEFAULT(space);
+  if (range == V4L2_QUANTIZATION_DEFAULT) range = V4L2_MAP_QUANTIZATION_DEFAULT(false, space, encoding);
   tags.primaries = primaries_of(space);
   tags.transfer = transfer_of(transfer);
   tags.matrix = matrix_of(encoding);
