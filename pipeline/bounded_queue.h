@@ -16,7 +16,8 @@ namespace rinkaku::pipeline {
 enum class WhenFull { Wait, DropOldest };
 
 /// Hands values from one thread to the next and keeps at most `capacity` of them waiting: a full queue makes its
-/// producer wait, or drops the value that waits longest. What a producer throws comes out at the consumer's side, after the values before it.
+/// producer wait, or drops the value that waits longest. What a producer throws comes out at the consumer's side, after
+/// the values before it.
 template <typename T>
 class BoundedQueue {
  public:

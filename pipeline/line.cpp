@@ -19,9 +19,7 @@ constexpr std::size_t queue_frames = 4;
 // Live, every waiting frame is latency; but an encoder may hiccup for a moment without losing one.
 constexpr std::size_t live_queue_frames = 1, live_encode_frames = 8;
 
-float milliseconds(Clock::duration duration) {
-  return std::chrono::duration<float, std::milli>(duration).count();
-}
+float milliseconds(Clock::duration duration) { return std::chrono::duration<float, std::milli>(duration).count(); }
 
 // Worker threads that are joined on the way out, whichever way that is; closing the queues lets them go.
 class Threads {

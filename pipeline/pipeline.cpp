@@ -61,6 +61,7 @@ RenderReport render(const Prepared& prepared, const RenderOptions& options, cons
   // Set-up, from the source to the sink: whatever is wrong is found before anything is written.
   std::unique_ptr<source::Source> source = open_source(prepared);
   if (watcher) source = watcher->through(std::move(source));
+  source->stop_when(stop);
   const source::Description& described = source->description();
   result.width_px = described.format.width_px;
   result.height_px = described.format.height_px;
@@ -137,15 +138,16 @@ RenderReport render(const Prepared& prepared, const RenderOptions& options, cons
   const Line::Drawn drawn_one = [&, done = std::int64_t{0}]() mutable {
     if (progress) progress(++done, total);
   };
-  result.frames = line.run(decoder(*source, options, stop), drawn_one,
-                           described.live ? Pace::NewestFrame : Pace::EveryFrame);
+  result.frames =
+      line.run(decoder(*source, options, stop), drawn_one, described.live ? Pace::NewestFrame : Pace::EveryFrame);
   result.interrupted = stop;
   result.dropped = line.dropped();
 
   if (result.frames == 0 && !result.interrupted) {
     throw no_frame_error(described, options, skipped);
   }
-  if (plan.runs("draw") && result.frames > 0 && result.posed_frames == 0 && !result.interrupted) {
+  const bool all_there = !result.interrupted && !described.live;
+  if (plan.runs("draw") && result.frames > 0 && result.posed_frames == 0 && all_there) {
     throw no_pose_error(prepared, described, result.frames);
   }
   for (sink::Sink* each : {output.sink.get(), layers.sink.get()}) {

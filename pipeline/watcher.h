@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "pipeline/line.h"
-#include "pipeline/scene.h"
+#include "pipeline/scene/scene.h"
 #include "pipeline/source/source.h"
 
 namespace rinkaku::pipeline {

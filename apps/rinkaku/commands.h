@@ -23,6 +23,12 @@ struct RenderCall {
 };
 int render(const RenderCall& call);
 
+struct DevicesCall {
+  std::vector<std::string> devices;  ///< empty: all there are
+  bool json = false;
+};
+int devices(const DevicesCall& call);
+
 struct ExplainCall {
   std::string scene;
   bool layers = false;

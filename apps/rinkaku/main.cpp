@@ -22,6 +22,7 @@ struct CommandLine {
   CLI::App app{"rinkaku draws CG objects into filmed video, in front of and behind what was filmed, as a drawing."};
   std::function<int()> run;
   RenderCall render;
+  DevicesCall devices;
   ExplainCall explain;
   InspectCall inspect;
   BoardCall board;
@@ -38,6 +39,7 @@ struct CommandLine {
     app.set_version_flag("--version", "rinkaku " RINKAKU_VERSION);
     app.footer("rinkaku COMMAND --help shows a command's options with an example.");
     add_render();
+    add_devices();
     add_explain();
     add_inspect();
     add_board();
@@ -81,6 +83,14 @@ struct CommandLine {
         ->check(CLI::Range(std::int64_t{1000}, std::int64_t{10'000'000'000}));
     sub->add_option("--format", c.format, "What goes to standard output")->check(CLI::IsMember({"y4m", "raw"}));
     add_force(sub, c.force);
+    add_json(sub, c.json);
+  }
+
+  void add_devices() {
+    DevicesCall& c = devices;
+    CLI::App* sub = add("devices", "List the cameras there are, with their modes and controls.", "rinkaku devices",
+                        [&c] { return rinkaku::app::devices(c); });
+    sub->add_option("DEVICE", c.devices, "Only these, e.g. /dev/video0");
     add_json(sub, c.json);
   }
 

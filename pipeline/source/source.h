@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -47,8 +48,9 @@ class Source {
   /// Throws Error if the device or file fails altogether; damaged frames are counted, not thrown.
   virtual std::optional<Frame> next() = 0;
 
-  /// Makes a next() that waits return nothing, and every later one. Any thread; files don't wait and ignore it.
-  virtual void stop() {}
+  /// Once `stop` is true a next() that waits for a camera returns nothing within 0.1 s; files don't wait and ignore it.
+  /// `stop` must outlive the source.
+  virtual void stop_when(const std::atomic<bool>& /*stop*/) {}
 
   /// Any thread; recordings are always well.
   virtual Health health() const { return {}; }

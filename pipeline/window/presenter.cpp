@@ -143,7 +143,9 @@ void Presenter::convert(const Frame& frame) {
   glProgramUniformMatrix3fv(program, program_.uniform("rgb_from_code"), 1, GL_FALSE, &code.matrix[0][0]);
   glProgramUniform3f(program, program_.uniform("code_offset"), code.offset.x, code.offset.y, code.offset.z);
   glProgramUniform1i(program, program_.uniform("colour_model"),
-                     pixels.model == ColourModel::Grey ? 0 : pixels.model == ColourModel::Yuv ? 1 : 2);
+                     pixels.model == ColourModel::Grey  ? 0
+                     : pixels.model == ColourModel::Yuv ? 1
+                                                        : 2);
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.name());
   glViewport(0, 0, format.width_px, format.height_px);
   glDisable(GL_BLEND);

@@ -76,8 +76,7 @@ std::unique_ptr<Window> Window::open(const std::string& title, int width_px, int
   glfwSetWindowUserPointer(self->window_, self.get());
   glfwSetKeyCallback(self->window_, on_key);
   const std::string renderer = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
-  self->software_ =
-      renderer.find("llvmpipe") != std::string::npos || renderer.find("softpipe") != std::string::npos;
+  self->software_ = renderer.find("llvmpipe") != std::string::npos || renderer.find("softpipe") != std::string::npos;
   return self;
 }
 

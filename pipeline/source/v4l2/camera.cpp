@@ -2,15 +2,15 @@
 
 #include <algorithm>
 #include <atomic>
-#include <cerrno>
+#include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <mutex>
 #include <optional>
+#include <thread>
 #include <utility>
 
 #include <poll.h>
-#include <sys/eventfd.h>
-#include <unistd.h>
 
 #include "pipeline/frame/error.h"
 #include "pipeline/source/v4l2/capture.h"
@@ -23,9 +23,12 @@ constexpr std::int64_t second_ns = 1'000'000'000;
 constexpr std::int64_t first_picture_ns = 5 * second_ns;  // cameras take a second or two to measure the light
 constexpr std::int64_t silence_ns = second_ns;            // worth a notice
 constexpr std::int64_t restart_ns = 3 * second_ns;        // the stream is started anew
-constexpr int look_again_ms = 200;
+constexpr int poll_ms = 50;
+constexpr std::chrono::milliseconds look_again{100};
 
-std::string size_text(int width_px, int height_px) { return std::to_string(width_px) + "x" + std::to_string(height_px); }
+std::string size_text(int width_px, int height_px) {
+  return std::to_string(width_px) + "x" + std::to_string(height_px);
+}
 
 std::string rate_text(Rational rate) {
   char text[32];
@@ -49,6 +52,12 @@ std::string shortfall(const ModeWish& wish, const Agreed& agreed) {
     add(rate_text(wish.rate));
   }
   return line;
+}
+
+// Waits a moment for a picture or an error, which is found by taking the picture.
+bool something_comes(const Capture& capture) {
+  pollfd polled{capture.poll_descriptor(), POLLIN, 0};
+  return ::poll(&polled, 1, poll_ms) > 0;
 }
 
 Device find_device(const std::string& wanted) {
@@ -84,12 +93,11 @@ class Camera final : public Source {
   const Description& description() const override { return description_; }
   std::optional<Frame> next() override;
   std::string damage() const override;
-  void stop() override;
+  void stop_when(const std::atomic<bool>& stop) override { stop_ = &stop; }
   Health health() const override;
 
  private:
-  enum class Woken { Picture, Nothing, Stop };
-  Woken wait(int descriptor, int timeout_ms) const;
+  bool stopped() const { return stop_ && *stop_; }
   void start(Device device, const Choice& choice);
   std::optional<Frame> take();
   void look_for_it();
@@ -102,8 +110,7 @@ class Camera final : public Source {
   Identity identity_;
   std::string path_;
   Choice choice_;
-  Descriptor stop_event_;
-  std::atomic<bool> stopped_{false};
+  const std::atomic<bool>* stop_ = nullptr;
   std::optional<Capture> capture_;
   std::optional<Unpacker> unpacker_;
   std::optional<std::uint32_t> last_sequence_;
@@ -118,8 +125,7 @@ class Camera final : public Source {
   Health health_;
 };
 
-Camera::Camera(const CameraOptions& options) : options_(options), stop_event_(::eventfd(0, EFD_CLOEXEC)) {
-  if (!stop_event_) throw runtime_failure(options.device, "there are too many open files");
+Camera::Camera(const CameraOptions& options) : options_(options) {
   Device device = find_device(options.device);
   identity_ = device.identity;
   path_ = device.path;
@@ -132,7 +138,7 @@ Camera::Camera(const CameraOptions& options) : options_(options), stop_event_(::
       throw runtime_failure(path_, identity_.card + " sends no picture",
                             "check its cover and cable, or choose another format");
     }
-    if (wait(capture_->poll_descriptor(), 100) == Woken::Picture) first_ = take();
+    if (something_comes(*capture_)) first_ = take();
   }
   describe();
 }
@@ -160,29 +166,19 @@ void Camera::start(Device device, const Choice& choice) {
   heard_ns_ = monotonic_ns();
 }
 
-Camera::Woken Camera::wait(int descriptor, int timeout_ms) const {
-  pollfd polled[2] = {{stop_event_.number(), POLLIN, 0}, {descriptor, POLLIN, 0}};
-  const int ready = ::poll(polled, descriptor >= 0 ? 2 : 1, timeout_ms);
-  if (stopped_ || (ready > 0 && polled[0].revents != 0)) return Woken::Stop;
-  // An error is found by taking the picture.
-  return ready > 0 ? Woken::Picture : Woken::Nothing;
-}
-
 std::optional<Frame> Camera::next() {
-  if (first_ && !stopped_) return std::exchange(first_, std::nullopt);
-  while (!stopped_) {
+  if (first_ && !stopped()) return std::exchange(first_, std::nullopt);
+  while (!stopped()) {
     if (!capture_) {
-      if (wait(-1, look_again_ms) == Woken::Stop) break;
+      std::this_thread::sleep_for(look_again);
       look_for_it();
       continue;
     }
-    const Woken woken = wait(capture_->poll_descriptor(), 100);
-    if (woken == Woken::Stop) break;
-    if (woken == Woken::Picture) {
+    if (something_comes(*capture_)) {
       if (auto frame = take()) return frame;
       if (!capture_) continue;
       // Nothing came although something happened: an error that lasts must not be asked about all the time.
-      wait(-1, 2);
+      std::this_thread::sleep_for(std::chrono::milliseconds(2));
     }
     const std::int64_t silent_ns = monotonic_ns() - heard_ns_;
     if (silent_ns > restart_ns) {
@@ -282,13 +278,6 @@ void Camera::look_for_it() {
     capture_.reset();
     notice(std::string("is back, but can't be used: ") + error.what());
   }
-}
-
-void Camera::stop() {
-  stopped_ = true;
-  const std::uint64_t one = 1;
-  // Full only if it was stopped already.
-  [[maybe_unused]] const ssize_t written = ::write(stop_event_.number(), &one, sizeof one);
 }
 
 Health Camera::health() const {

@@ -96,7 +96,8 @@ Distance distance(const Mode& mode, const ModeWish& wish, Rational rate) {
   const bool size_wished = wish.width_px > 0;
   const int width = size_wished ? wish.width_px : usual_width_px;
   const int height = size_wished ? wish.height_px : usual_height_px;
-  long size = std::labs(static_cast<long>(mode.width_px) - width) + std::labs(static_cast<long>(mode.height_px) - height);
+  long size =
+      std::labs(static_cast<long>(mode.width_px) - width) + std::labs(static_cast<long>(mode.height_px) - height);
   if (!size_wished && (mode.width_px > width || mode.height_px > height)) size += 100'000;
   const double wanted = wish.rate.num > 0 ? wish.rate.value() : usual_rate;
   // A rate that isn't told may be any; half a frame a second is no difference.

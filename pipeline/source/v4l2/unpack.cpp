@@ -3,8 +3,9 @@
 #include <cstring>
 #include <optional>
 
-#include <libyuv.h>
 #include <linux/videodev2.h>
+
+#include <libyuv.h>
 
 extern "C" {
 #include <libavutil/pixdesc.h>
