@@ -142,6 +142,10 @@ RenderReport render(const Prepared& prepared, const RenderOptions& options, cons
       line.run(decoder(*source, options, stop), drawn_one, described.live ? Pace::NewestFrame : Pace::EveryFrame);
   result.interrupted = stop;
   result.dropped = line.dropped();
+  if (const std::int64_t dropped = result.dropped.before + result.dropped.drawn; dropped > 0) {
+    result.notices.push_back(described.name + ": " + std::to_string(dropped) +
+                             " pictures came too fast and were left out");
+  }
 
   if (result.frames == 0 && !result.interrupted) {
     throw no_frame_error(described, options, skipped);

@@ -59,6 +59,7 @@ nlohmann::json to_json(const pipeline::RenderReport& report) {
           {"width", report.width_px},
           {"height", report.height_px},
           {"interrupted", report.interrupted},
+          {"dropped", report.dropped.before + report.dropped.drawn},
           {"notices", report.notices},
           {"stages", stages}};
 }

@@ -100,6 +100,7 @@ class Camera final : public Source {
   bool stopped() const { return stop_ && *stop_; }
   void start(Device device, const Choice& choice);
   std::optional<Frame> take();
+  void begin();
   void look_for_it();
   void lose(const std::string& why);
   void notice(const std::string& line);
@@ -167,7 +168,7 @@ void Camera::start(Device device, const Choice& choice) {
 }
 
 std::optional<Frame> Camera::next() {
-  if (first_ && !stopped()) return std::exchange(first_, std::nullopt);
+  if (first_) begin();
   while (!stopped()) {
     if (!capture_) {
       std::this_thread::sleep_for(look_again);
@@ -190,6 +191,20 @@ std::optional<Frame> Camera::next() {
   return std::nullopt;
 }
 
+// What came while the rest was set up is old by now, and nobody's loss.
+void Camera::begin() {
+  first_.reset();
+  Taken taken;
+  while (capture_ && capture_->take(taken) == Capture::Failure::None) capture_->give_back(taken);
+  last_sequence_.reset();
+  first_ns_.reset();
+  heard_ns_ = monotonic_ns();
+  next_number_ = 0;
+  last_pts_ = -1;
+  std::lock_guard lock(mutex_);
+  health_ = {};
+}
+
 std::optional<Frame> Camera::take() {
   Taken taken;
   switch (capture_->take(taken)) {
@@ -207,7 +222,7 @@ std::optional<Frame> Camera::take() {
   heard_ns_ = monotonic_ns();
   std::optional<Frame> frame;
   if (!taken.damaged) frame = unpacker_->frame(taken.bytes);
-  const bool alike = frame && (first_ns_ ? frame->format == description_.format : true);
+  const bool alike = frame && (description_.live ? frame->format == description_.format : true);
   capture_->give_back(taken);  // if the device is gone, the next take says so
   {
     std::lock_guard lock(mutex_);
