@@ -173,9 +173,23 @@ Drawing make_drawing(const Scene& scene, const passes::PixelRect& picture) {
   return drawing;
 }
 
-void redraw(Drawing& drawing, const Scene& scene) {
+struct PreparedObjects::All {
+  std::vector<std::optional<PreparedObject>> objects;
+};
+PreparedObjects::PreparedObjects(std::unique_ptr<All> all) : all_(std::move(all)) {}
+PreparedObjects::~PreparedObjects() = default;
+PreparedObjects::PreparedObjects(PreparedObjects&&) noexcept = default;
+PreparedObjects& PreparedObjects::operator=(PreparedObjects&&) noexcept = default;
+
+PreparedObjects prepare_objects(const Scene& scene) {
+  auto all = std::make_unique<PreparedObjects::All>();
+  all->objects = prepare_all(scene);
+  return PreparedObjects(std::move(all));
+}
+
+void redraw(Drawing& drawing, const Scene& scene, PreparedObjects objects) {
   std::vector<std::string> notices;  // said already when the run began
-  std::vector<passes::StyledObject> styled = style(scene, prepare_all(scene), notices);
+  std::vector<passes::StyledObject> styled = style(scene, std::move(objects.all_->objects), notices);
   drawing.renderer = std::make_unique<passes::LayerRenderer>(std::move(styled), drawing.picture);
 }
 

@@ -38,12 +38,28 @@ Line::Decode decoder(source::Source& source, const RenderOptions& options, const
   };
 }
 
+// Tells the watcher that the run begins, and that it ended, whichever way that is.
+class Watched {
+ public:
+  Watched(Watcher* watcher, const source::Source& source, const Line& line) : watcher_(watcher) {
+    if (watcher_) watcher_->started(source, line);
+  }
+  ~Watched() {
+    if (watcher_) watcher_->ended();
+  }
+  Watched(const Watched&) = delete;
+  Watched& operator=(const Watched&) = delete;
+
+ private:
+  Watcher* watcher_;
+};
+
 // What the watcher wants drawn from this frame on; what can't be drawn is told to it, and nothing changes.
 void take_change(Watcher& watcher, std::int64_t frame, Drawing& drawing) {
-  const std::optional<Scene> changed = watcher.changed(frame);
+  std::optional<SceneChange> changed = watcher.changed(frame);
   if (!changed) return;
   try {
-    redraw(drawing, *changed);
+    redraw(drawing, changed->scene, std::move(changed->objects));
   } catch (const Error& error) {
     watcher.refused(error.what());
   }
@@ -134,7 +150,7 @@ RenderReport render(const Prepared& prepared, const RenderOptions& options, cons
   const auto start = std::chrono::steady_clock::now();
   const std::int64_t total = frames_expected(described, options);
   const std::int64_t skipped = skip_to(*source, options.first_frame, stop);
-  if (watcher) watcher->started(*source, line);
+  const Watched watched(watcher, *source, line);
   const Line::Drawn drawn_one = [&, done = std::int64_t{0}]() mutable {
     if (progress) progress(++done, total);
   };

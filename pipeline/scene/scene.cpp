@@ -51,6 +51,10 @@ Scene read(const toml::Document& document, const SceneOptions& options) {
 }  // namespace
 
 Scene read_scene(const fs::path& file, const SceneOptions& options) {
+  if (options.text) {
+    const toml::Document document(file, scene_schema(), *options.text);
+    return read(document, options);
+  }
   const toml::Document document(file, scene_schema());
   return read(document, options);
 }
