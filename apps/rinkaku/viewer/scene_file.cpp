@@ -1,10 +1,9 @@
 #include "apps/rinkaku/viewer/scene_file.h"
 
 #include <algorithm>
-#include <fstream>
 #include <utility>
 
-#include "pipeline/frame/error.h"
+#include "pipeline/files/pending_file.h"
 
 namespace rinkaku::app {
 namespace {
@@ -85,20 +84,8 @@ SceneFile::Effect SceneFile::look() {
 }
 
 void SceneFile::save() {
-  const fs::path temporary = file_.parent_path() / ("." + file_.filename().string() + ".saving");
-  {
-    std::ofstream out(temporary, std::ios::binary | std::ios::trunc);
-    out << text_;
-    if (!out.flush()) throw runtime_failure(file_.string(), "can't be saved", "check the folder's permissions");
-  }
-  std::error_code error;
-  fs::permissions(temporary, fs::status(file_, error).permissions(), error);
-  fs::rename(temporary, file_, error);
-  if (error) {
-    std::error_code ignored;
-    fs::remove(temporary, ignored);
-    throw runtime_failure(file_.string(), "can't be saved: " + error.message(), "check the folder's permissions");
-  }
+  files::PendingFile file(file_.string(), true);
+  file.write(text_);
   saved_ = text_;
   remember_times();
 }
