@@ -24,7 +24,7 @@ struct RenderOptions {
   std::int64_t end_frame = std::numeric_limits<std::int64_t>::max();  ///< exclusive
   std::string layers_folder{};                                        ///< empty: layers are not written
   bool overwrite = false;
-  bool watched = false;  ///< by a window; an output is then no must
+  bool watched = false;  ///< by a window: only `output` is then written, if it is given
 };
 
 struct RenderReport {

@@ -118,7 +118,8 @@ source::v4l2::CameraOptions camera_options(const Prepared& prepared) {
 }  // namespace
 
 Prepared prepare(Scene scene, const RenderOptions& options) {
-  if (!options.output.empty()) scene.output.path = options.output;
+  // Whoever looks on need not want what the scene writes.
+  if (!options.output.empty() || options.watched) scene.output.path = options.output;
   if (!options.codec.empty()) scene.output.codec = options.codec;
   if (options.bit_rate > 0) scene.output.bit_rate = options.bit_rate;
   Prepared prepared;

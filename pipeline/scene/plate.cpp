@@ -46,7 +46,7 @@ PlateScene read_plate(const Table& plate, const OtherPlate& other) {
       throw plate.error_at("images", "names a folder that doesn't exist: " + folder.string());
     }
   }
-  if (plate.has("fps") && !scene.device) scene.fps = read_fps(plate);
+  if (plate.has("fps") && kind != "device") scene.fps = read_fps(plate);
   if (plate.has("camera")) scene.camera = existing_file(plate, "camera");
   return scene;
 }

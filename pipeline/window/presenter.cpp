@@ -171,8 +171,8 @@ Presenter::Place Presenter::place(const PictureFormat& format, int width_px, int
   return place;
 }
 
-void Presenter::draw(int width_px, int height_px) const {
-  glBindFramebuffer(GL_FRAMEBUFFER, 0);
+void Presenter::draw(int width_px, int height_px, GLuint framebuffer) const {
+  glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
   glDisable(GL_SCISSOR_TEST);
   glViewport(0, 0, width_px, height_px);
   const Place to = picture_ ? place(format_, width_px, height_px) : Place{};
@@ -183,7 +183,7 @@ void Presenter::draw(int width_px, int height_px) const {
   if (!picture_) return;
   const bool as_it_is = to.width_px == format_.width_px && to.height_px == format_.height_px;
   // The picture's rows run downwards, the window's upwards.
-  glBlitNamedFramebuffer(framebuffer_.name(), 0, 0, format_.height_px, format_.width_px, 0, to.x_px, to.y_px,
+  glBlitNamedFramebuffer(framebuffer_.name(), framebuffer, 0, format_.height_px, format_.width_px, 0, to.x_px, to.y_px,
                          to.x_px + to.width_px, to.y_px + to.height_px, GL_COLOR_BUFFER_BIT,
                          as_it_is ? GL_NEAREST : GL_LINEAR);
 }

@@ -7,7 +7,7 @@
 
 namespace rinkaku::window {
 
-/// Shows frames in the current context's default framebuffer, as large as fits, black around them.
+/// Shows frames as large as fits, black around them.
 ///
 /// On a graphics card the frame's own planes are uploaded and turned into RGB by a shader; where OpenGL runs on the CPU
 /// libyuv does that, which is several times faster there. Needs the context of construction to be current.
@@ -20,8 +20,8 @@ class Presenter {
   /// can't be shown.
   void take(const Frame& frame);
 
-  /// Draws what was taken last into a framebuffer of this size; only black if nothing was.
-  void draw(int width_px, int height_px) const;
+  /// Draws what was taken last into a framebuffer of this size, by default the window's; only black if nothing was.
+  void draw(int width_px, int height_px, GLuint framebuffer = 0) const;
 
   /// Where draw() puts the picture: from the lower left corner.
   struct Place {

@@ -15,7 +15,7 @@
 namespace rinkaku::app {
 namespace {
 
-constexpr ImVec4 warning(1.0f, 0.45f, 0.35f, 1.0f);
+const ImVec4 warning(1.0f, 0.45f, 0.35f, 1.0f);
 constexpr float panel_width = 330;
 
 void style_panel(float scale) {
