@@ -121,7 +121,8 @@ std::int64_t Line::run(const Decode& decode, const Drawn& drawn_one, Pace pace) 
   const bool newest = pace == Pace::NewestFrame;
   const std::size_t waiting = newest ? live_queue_frames : queue_frames;
   const WhenFull live_full = newest ? WhenFull::DropOldest : WhenFull::Wait;
-  Queue decoded(waiting, live_full, dropped_before_), tracked(waiting), drawn(waiting);
+  Queue decoded(waiting, live_full, dropped_before_), tracked(waiting, live_full, dropped_before_),
+      drawn(waiting, live_full, dropped_before_);
   Queue finished(newest ? live_encode_frames : queue_frames, live_full, dropped_drawn_);
   Queue& to_draw = track.empty() ? decoded : tracked;
   Queue& from_draw = composite.empty() ? finished : drawn;

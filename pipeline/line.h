@@ -31,7 +31,7 @@ struct Work {
 /// How frames move along a line.
 enum class Pace {
   EveryFrame,   ///< recordings: a full queue makes its producer wait
-  NewestFrame,  ///< cameras: at most one frame waits before each thread, and what comes too late is dropped
+  NewestFrame,  ///< cameras: at most one frame waits before each thread, and gives way to a newer one
 };
 
 struct StageReport {
@@ -62,7 +62,7 @@ class Line {
 
   /// Decoding first, then the stages in the order of adding.
   std::vector<std::string> stage_names() const;
-  /// Frames left out by Pace::NewestFrame so far: before anything was done with them, and drawn ones that the last
+  /// Frames left out by Pace::NewestFrame so far: before they were finished, and finished ones that the last
   /// group was too slow for. Any thread.
   struct Dropped {
     std::int64_t before = 0;

@@ -142,6 +142,11 @@ RenderReport render(const Prepared& prepared, const RenderOptions& options, cons
              [&](Work& work) { work.frame = straight_alpha_frame(work.frame, work.layer, opacity(work), pool); });
   }
   if (watcher) line.add(Group::Composite, "show", [&](Work& work) { watcher->finished(work); });
+  std::unique_ptr<sink::Sink> virtual_camera;
+  if (plan.runs("virtual-camera")) {
+    virtual_camera = open_virtual_camera(prepared, options, described);
+    line.add(Group::Composite, "virtual-camera", [&](Work& work) { virtual_camera->write(work.frame); });
+  }
   line.add(Group::Encode, "encode", [&](Work& work) {
     if (output.sink && !work.frame.repeated) output.sink->write(work.frame);
     spent.give_back(std::move(work.layer));

@@ -133,6 +133,11 @@ Verdict show(const Facts& f) {
   return {true, "frames are shown in a window"};
 }
 
+Verdict virtual_camera(const Facts& f) {
+  if (!f.request.virtual_camera) return {false, "no --virtual-camera was given"};
+  return {true, "other programs read the frames from a virtual camera"};
+}
+
 Verdict encode(const Facts& f) {
   if (f.request.watched && f.scene.output.path.empty()) return {false, "nothing is recorded"};
   return {true, "frames go to the output"};
@@ -163,6 +168,7 @@ const std::vector<Kind>& kinds() {
       {"layers", layers, {"draw", "lens"}},
       {"copy-streams", copy_streams, {}},
       {"show", show, {"decode", "composite", "unmultiply"}},
+      {"virtual-camera", virtual_camera, {"decode", "composite", "unmultiply"}},
       {"encode", encode, {"decode", "composite", "unmultiply", "copy-streams"}},
   };
   return all;
@@ -176,7 +182,7 @@ bool Plan::runs(std::string_view name) const {
 
 Plan make_plan(const Scene& scene, const CameraModel* camera, const Request& request) {
   const Facts facts{scene, camera, request};
-  std::set<std::string_view> asked_for = {"encode", "layers", "show"};  // the sinks
+  std::set<std::string_view> asked_for = {"encode", "layers", "show", "virtual-camera"};  // the sinks
   Plan plan;
   for (auto kind = kinds().rbegin(); kind != kinds().rend(); ++kind) {
     Stage stage;

@@ -11,6 +11,7 @@
 #include "pipeline/passes/composite/blend.h"
 #include "pipeline/passes/composite/straight_alpha.h"
 #include "pipeline/sink/output_names.h"
+#include "pipeline/sink/virtual_camera.h"
 #include "pipeline/source/v4l2/camera.h"
 #include "pipeline/track/camera_file.h"
 #include "pipeline/track/make_tracker.h"
@@ -126,6 +127,7 @@ Prepared prepare(Scene scene, const RenderOptions& options) {
   if (!scene.plate.camera.empty()) prepared.camera = track::read_camera(scene.plate.camera);
   Request request;
   request.watched = options.watched;
+  request.virtual_camera = !options.virtual_camera.empty();
   request.layers = !options.layers_folder.empty();
   request.no_streams_because = no_streams_because(scene.plate.input, scene.output.path, scene.plate.device.has_value());
   prepared.plan = make_plan(scene, prepared.camera ? &*prepared.camera : nullptr, request);
@@ -189,6 +191,7 @@ Output open_output(const Prepared& prepared, const RenderOptions& options, const
   to.container = options.container;
   to.bit_rate = output.bit_rate;
   to.overwrite = options.overwrite;
+  to.recording = options.watched;
   sink::Incoming in = incoming(
       described, prepared.plan.runs("unmultiply") ? straight_alpha_format(described.format) : described.format);
   if (prepared.plan.runs("copy-streams")) in.copy_streams_from = prepared.scene.plate.input;
@@ -201,6 +204,17 @@ Output open_layers(const Prepared& prepared, const RenderOptions& options, const
   refuse_own_input(to.path, prepared.scene.plate.input);
   to.overwrite = options.overwrite;
   return open_in_folder(to, incoming(described, straight_alpha_format(described.format)));
+}
+
+std::unique_ptr<sink::Sink> open_virtual_camera(const Prepared& prepared, const RenderOptions& options,
+                                                const source::Description& described) {
+  if (prepared.scene.plate.device && options.virtual_camera == described.name) {
+    throw input_error(options.virtual_camera, "is the camera that is filmed with", "choose another virtual camera");
+  }
+  return sink::open_virtual_camera(
+      options.virtual_camera,
+      incoming(described,
+               prepared.plan.runs("unmultiply") ? straight_alpha_format(described.format) : described.format));
 }
 
 std::int64_t frames_expected(const source::Description& described, const RenderOptions& options) {

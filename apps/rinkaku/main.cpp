@@ -114,8 +114,11 @@ struct CommandLine {
                         "rinkaku live scene.toml --camera /dev/video0", [&c] { return rinkaku::app::view(c, true); });
     add_view(sub, c);
     sub->add_option("--camera", c.camera, "Camera to use in place of the scene's plate, as 'rinkaku devices' lists it");
-    sub->add_option("--record", c.record, "Video file to record what is shown to");
+    sub->add_option("--record", c.record,
+                    "Video file to record what is shown to; playable at any moment, also if this is killed");
     sub->add_option("--codec", c.codec, "Encoder of the recording; else by its ending");
+    sub->add_option("--virtual-camera", c.virtual_camera,
+                    "Video output device (v4l2loopback) that other programs read as a camera");
     sub->add_flag("--headless", c.headless, "Without a window, until Ctrl-C or --seconds");
     add_force(sub, c.force);
   }

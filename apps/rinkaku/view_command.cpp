@@ -69,6 +69,7 @@ int view(const ViewCall& call, bool live) {
   ViewOptions options;
   options.run.watched = true;
   options.run.output = call.record;
+  options.run.virtual_camera = call.virtual_camera;
   options.run.codec = call.codec;
   options.run.overwrite = call.force;
   options.seconds = call.seconds;
