@@ -55,7 +55,7 @@ class Watched {
 };
 
 // What the watcher wants drawn from this frame on; what can't be drawn is told to it, and nothing changes.
-void take_change(Watcher& watcher, std::int64_t frame, Drawing& drawing) {
+void take_change(Watcher& watcher, const Frame& frame, Drawing& drawing) {
   std::optional<SceneChange> changed = watcher.changed(frame);
   if (!changed) return;
   try {
@@ -87,6 +87,7 @@ RenderReport render(const Prepared& prepared, const RenderOptions& options, cons
   std::unique_ptr<track::Tracker> tracker;
   if (plan.runs("track")) {
     tracker = make_tracker(prepared, described);
+    if (watcher) tracker = watcher->tracked_by(std::move(tracker));
     line.add(Group::Track, "track", [&, last = std::optional<TrackedPose>()](Work& work) mutable {
       if (!work.frame.repeated) last = tracker->track(work.frame);
       work.pose = last;
@@ -104,7 +105,7 @@ RenderReport render(const Prepared& prepared, const RenderOptions& options, cons
     line.add(Group::Draw, "draw", [&](Work& work) {
       work.layer = spent.take();
       work.layer.rect = {};
-      if (watcher) take_change(*watcher, work.frame.number, *drawing);
+      if (watcher) take_change(*watcher, work.frame, *drawing);
       if (!work.pose || work.pose->opacity <= 0) return;
       ++result.posed_frames;
       drawing->renderer->draw({*prepared.camera, work.pose->camera_from_world}, work.layer);

@@ -10,6 +10,7 @@
 #include "pipeline/line.h"
 #include "pipeline/scene/scene.h"
 #include "pipeline/source/source.h"
+#include "pipeline/track/tracker.h"
 
 namespace rinkaku::pipeline {
 
@@ -28,11 +29,14 @@ class Watcher {
   /// Calling thread, before anything else is made: may put something between the source and the run, e.g. a clock.
   virtual std::unique_ptr<source::Source> through(std::unique_ptr<source::Source> source) { return source; }
 
+  /// Calling thread, if anything is tracked: may track in another way.
+  virtual std::unique_ptr<track::Tracker> tracked_by(std::unique_ptr<track::Tracker> tracker) { return tracker; }
+
   /// Calling thread, once all is set up. `line` outlives the run; its stages don't change any more.
   virtual void started(const source::Source& /*source*/, const Line& /*line*/) {}
 
   /// Drawing thread, before this frame is drawn: the scene from now on, if it changed.
-  virtual std::optional<SceneChange> changed(std::int64_t /*frame*/) { return std::nullopt; }
+  virtual std::optional<SceneChange> changed(const Frame& /*frame*/) { return std::nullopt; }
 
   /// Drawing thread: what changed() gave can't be drawn, the scene before it stays.
   virtual void refused(const std::string& /*why*/) {}

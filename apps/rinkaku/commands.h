@@ -30,6 +30,7 @@ struct ViewCall {
   std::string camera;  ///< the rest but `seconds`, `no_panel`, `screenshots`: live only
   std::string record;
   std::string virtual_camera;
+  std::string session;
   std::string codec;
   std::string screenshots;
   double seconds = 0;

@@ -72,7 +72,7 @@ struct CommandLine {
     CLI::App* sub =
         add("render", "Render a scene into a video or an image sequence.",
             "rinkaku render recordings/desk/scene.toml -o desk.mp4", [&c] { return rinkaku::app::render(c); });
-    sub->add_option("SCENE", c.scene, "Scene file (TOML)")->required();
+    sub->add_option("SCENE", c.scene, "Scene file (TOML), or the folder of a session that live kept")->required();
     sub->add_option("--input", c.input, "Video to use in place of the scene's");
     sub->add_option("-o,--output", c.output,
                     "Video file, image pattern such as out/%04d.png, or - for standard output (see --format)");
@@ -117,6 +117,8 @@ struct CommandLine {
     sub->add_option("--record", c.record,
                     "Video file to record what is shown to; playable at any moment, also if this is killed");
     sub->add_option("--codec", c.codec, "Encoder of the recording; else by its ending");
+    sub->add_option("--session", c.session,
+                    "New folder to keep the session in: 'rinkaku render FOLDER' makes the same frames again");
     sub->add_option("--virtual-camera", c.virtual_camera,
                     "Video output device (v4l2loopback) that other programs read as a camera");
     sub->add_flag("--headless", c.headless, "Without a window, until Ctrl-C or --seconds");

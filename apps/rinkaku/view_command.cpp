@@ -73,6 +73,7 @@ int view(const ViewCall& call, bool live) {
   options.run.codec = call.codec;
   options.run.overwrite = call.force;
   options.seconds = call.seconds;
+  options.session = call.session;
   options.headless = call.headless;
   options.panel = !call.no_panel;
   if (!call.screenshots.empty()) options.screenshots = call.screenshots;

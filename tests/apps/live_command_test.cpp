@@ -2,28 +2,18 @@
 #include <cstdlib>
 
 #include "tests/apps/cli_tools.h"
+#include "tests/apps/fake_camera_tools.h"
 
 namespace rinkaku {
 namespace {
 
 using namespace test;
 
-constexpr const char* camera = "/dev/rinkaku_fake_camera";
+constexpr const char* camera = fake_camera_path;
 
-// The program with a camera that isn't there.
 CliResult with_camera(const ShotFolder& folder, const std::string& settings, const std::string& arguments) {
-  return run_shell(folder.path(), "LD_PRELOAD='" RINKAKU_FAKE_CAMERA "' FAKE_CAMERA=" + std::string(camera) + " " +
-                                      settings + " \"$RINKAKU\" " + arguments);
+  return run_shell(folder.path(), preloaded(settings) + " \"$RINKAKU\" " + arguments);
 }
-
-const std::string live_scene = "[plate]\ndevice = \"" + std::string(camera) + "\"\nsize_px = [640, 480]\n";
-
-// Sanitizers must come first among preloaded libraries, and refuse to run.
-#ifdef RINKAKU_SANITIZED
-#define NEEDS_PRELOAD() GTEST_SKIP() << "sanitized programs take no preloaded library before their own"
-#else
-#define NEEDS_PRELOAD() static_cast<void>(0)
-#endif
 
 TEST(Live, DevicesListsModesAndControls) {
   NEEDS_PRELOAD();

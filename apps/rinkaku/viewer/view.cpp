@@ -88,6 +88,7 @@ class View {
 };
 
 ViewReport View::run() {
+  if (!options_.session.empty()) viewer_.keep_session(options_.session, file_.scene().file, file_.text());
   run_.start(file_.scene());
   wait_for_first_frame();
   if (!options_.headless) open_window();
@@ -105,6 +106,7 @@ ViewReport View::run() {
   }
   report_.seconds = std::chrono::duration<double>(Clock::now() - started_).count();
   run_.stop();
+  viewer_.finish_session();
   bell_.window_is_open(false);
   const Viewer::Status status = viewer_.status();
   report_.health = status.health;
@@ -260,7 +262,7 @@ void View::obey_keys() {
 }
 
 void View::apply(Effect effect) {
-  if (effect == Effect::Redraw && run_.running()) viewer_.change(file_.scene());
+  if (effect == Effect::Redraw && run_.running()) viewer_.change(file_.scene(), file_.text());
   if (effect == Effect::Restart || (effect == Effect::Redraw && !run_.running())) run_.start(file_.scene());
 }
 

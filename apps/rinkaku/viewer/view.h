@@ -15,6 +15,7 @@ struct ViewOptions {
   double seconds = 0;  ///< then it ends by itself; 0: never
   bool headless = false;
   bool panel = true;
+  std::string session;            ///< the folder to keep it in; empty: it isn't kept
   std::string screenshots = ".";  ///< the folder they go to
 };
 

@@ -23,6 +23,19 @@ std::unique_ptr<source::Source> Viewer::through(std::unique_ptr<source::Source> 
 }
 
 void Viewer::started(const source::Source& source, const pipeline::Line& line) {
+  if (session_) {
+    // A run begun anew is another session.
+    finish_session();
+  } else if (session_plan_) {
+    const source::Description& described = source.description();
+    const SessionPlan plan = *std::exchange(session_plan_, std::nullopt);
+    sink::Incoming incoming;
+    incoming.format = described.format;
+    incoming.time_base = described.time_base;
+    incoming.frame_rate = described.frame_rate;
+    incoming.variable_frame_rate = described.variable_frame_rate;
+    session_ = std::make_unique<session::SessionWriter>(plan.folder, plan.scene, plan.text, incoming);
+  }
   std::lock_guard lock(mutex_);
   source_ = &source;
   line_ = &line;
@@ -33,9 +46,31 @@ void Viewer::started(const source::Source& source, const pipeline::Line& line) {
   letting_go_ = false;
 }
 
-std::optional<pipeline::SceneChange> Viewer::changed(std::int64_t /*frame*/) {
-  std::lock_guard lock(mutex_);
-  return std::exchange(ready_, std::nullopt);
+std::optional<pipeline::SceneChange> Viewer::changed(const Frame& frame) {
+  std::optional<Ready> ready;
+  session::SessionWriter* session = nullptr;
+  {
+    std::lock_guard lock(mutex_);
+    ready = std::exchange(ready_, std::nullopt);
+    session = session_.get();
+  }
+  if (!ready) return std::nullopt;
+  // A repeated frame is part of no recording: the next one is the first.
+  if (session) session->change(frame.number + (frame.repeated ? 1 : 0), ready->text);
+  return std::move(ready->change);
+}
+
+void Viewer::drawn(const pipeline::Work& work) {
+  if (session_ && !work.frame.repeated) session_->write(work.frame, work.pose);
+}
+
+void Viewer::keep_session(std::filesystem::path folder, std::filesystem::path scene, std::string text) {
+  session_plan_ = SessionPlan{std::move(folder), std::move(scene), std::move(text)};
+}
+
+void Viewer::finish_session() {
+  if (session_) session_->finish();
+  session_.reset();
 }
 
 void Viewer::refused(const std::string& why) {
@@ -64,10 +99,10 @@ std::optional<Viewer::Shown> Viewer::take_newest() {
   return shown;
 }
 
-void Viewer::change(pipeline::Scene scene) {
+void Viewer::change(pipeline::Scene scene, std::string text) {
   {
     std::lock_guard lock(mutex_);
-    wish_ = std::move(scene);
+    wish_ = Wish{std::move(scene), std::move(text)};
   }
   wanted_.notify_one();
 }
@@ -77,14 +112,14 @@ void Viewer::prepare() {
   while (true) {
     wanted_.wait(lock, [this] { return ending_ || wish_; });
     if (ending_) return;
-    pipeline::Scene scene = *std::exchange(wish_, std::nullopt);
+    Wish wish = *std::exchange(wish_, std::nullopt);
     preparing_ = true;
     lock.unlock();
-    std::optional<pipeline::SceneChange> ready;
+    std::optional<Ready> ready;
     std::string trouble;
     try {
-      pipeline::PreparedObjects objects = pipeline::prepare_objects(scene);
-      ready.emplace(pipeline::SceneChange{std::move(scene), std::move(objects)});
+      pipeline::PreparedObjects objects = pipeline::prepare_objects(wish.scene);
+      ready.emplace(Ready{{std::move(wish.scene), std::move(objects)}, std::move(wish.text)});
     } catch (const std::exception& error) {
       trouble = error.what();
     }

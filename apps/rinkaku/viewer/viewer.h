@@ -3,6 +3,7 @@
 #include <array>
 #include <atomic>
 #include <condition_variable>
+#include <filesystem>
 #include <functional>
 #include <memory>
 #include <mutex>
@@ -11,6 +12,7 @@
 #include <thread>
 #include <vector>
 
+#include "pipeline/session/log.h"
 #include "pipeline/source/playback.h"
 #include "pipeline/watcher.h"
 
@@ -26,9 +28,10 @@ class Viewer final : public pipeline::Watcher {
 
   std::unique_ptr<source::Source> through(std::unique_ptr<source::Source> source) override;
   void started(const source::Source& source, const pipeline::Line& line) override;
-  std::optional<pipeline::SceneChange> changed(std::int64_t frame) override;
+  std::optional<pipeline::SceneChange> changed(const Frame& frame) override;
   void refused(const std::string& why) override;
   void ended() override;
+  void drawn(const pipeline::Work& work) override;
   void finished(const pipeline::Work& work) override;
 
   /// A finished frame, once.
@@ -39,8 +42,14 @@ class Viewer final : public pipeline::Watcher {
   };
   std::optional<Shown> take_newest();
 
-  /// Draws this scene as soon as its objects are prepared, which another thread does; only the newest counts.
-  void change(pipeline::Scene scene);
+  /// Keeps the first run as a session in this folder; `text` is its scene file's. To be called before that run.
+  void keep_session(std::filesystem::path folder, std::filesystem::path scene, std::string text);
+  /// The session's last words; throws Error (Runtime) if it can't be finished.
+  void finish_session();
+
+  /// Draws this scene as soon as its objects are prepared, which another thread does; only the newest counts. `text` is
+  /// its scene file's.
+  void change(pipeline::Scene scene, std::string text);
 
   struct Status {
     std::vector<std::string> stages;  ///< of Shown::stage_ms
@@ -67,8 +76,22 @@ class Viewer final : public pipeline::Watcher {
   std::condition_variable taken_, wanted_;
   std::optional<Shown> newest_;
   bool wait_for_window_ = true, letting_go_ = false, ending_ = false, preparing_ = false;
-  std::optional<pipeline::Scene> wish_;
-  std::optional<pipeline::SceneChange> ready_;
+  struct Wish {
+    pipeline::Scene scene;
+    std::string text;
+  };
+  struct Ready {
+    pipeline::SceneChange change;
+    std::string text;
+  };
+  std::optional<Wish> wish_;
+  std::optional<Ready> ready_;
+  struct SessionPlan {
+    std::filesystem::path folder, scene;
+    std::string text;
+  };
+  std::optional<SessionPlan> session_plan_;
+  std::unique_ptr<session::SessionWriter> session_;
   const source::Source* source_ = nullptr;
   const pipeline::Line* line_ = nullptr;
   Status status_;

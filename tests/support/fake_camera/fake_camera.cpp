@@ -39,7 +39,7 @@ struct Size {
 };
 
 struct State {
-  int descriptor = -1, memory = -1;
+  int descriptor = -1, memory = -1, output = -1;
   std::uint8_t* base = nullptr;
   std::size_t slot_bytes = 0;
   __u32 slots = 0;
@@ -295,6 +295,23 @@ int open_it() {
   return camera.descriptor;
 }
 
+int answer_as_output(unsigned long code, void* argument) {
+  if (static_cast<__u32>(code) == static_cast<__u32>(VIDIOC_QUERYCAP)) {
+    auto& told = *static_cast<v4l2_capability*>(argument);
+    told = {};
+    told.device_caps = V4L2_CAP_VIDEO_OUTPUT | V4L2_CAP_READWRITE;
+    told.capabilities = told.device_caps | V4L2_CAP_DEVICE_CAPS;
+    return 0;
+  }
+  return static_cast<__u32>(code) == static_cast<__u32>(VIDIOC_S_FMT) ? 0 : fail(ENOTTY);
+}
+
+int open_other(const char* path, int flags, mode_t mode) {
+  const int opened = static_cast<int>(syscall(SYS_openat, AT_FDCWD, path, flags, mode));
+  if (path && !setting("FAKE_OUTPUT").empty() && setting("FAKE_OUTPUT") == path) camera.output = opened;
+  return opened;
+}
+
 bool is_it(const char* path) { return path && !setting("FAKE_CAMERA").empty() && setting("FAKE_CAMERA") == path; }
 
 void* map(void* address, std::size_t length, int protection, int flags, int descriptor, off_t offset) {
@@ -311,7 +328,7 @@ int open(const char* path, int flags, ...) {
   va_start(list, flags);
   const mode_t mode = flags & (O_CREAT | O_TMPFILE) ? va_arg(list, mode_t) : 0;
   va_end(list);
-  return is_it(path) ? open_it() : static_cast<int>(syscall(SYS_openat, AT_FDCWD, path, flags, mode));
+  return is_it(path) ? open_it() : open_other(path, flags, mode);
 }
 
 int open64(const char* path, int flags, ...) {
@@ -319,7 +336,7 @@ int open64(const char* path, int flags, ...) {
   va_start(list, flags);
   const mode_t mode = flags & (O_CREAT | O_TMPFILE) ? va_arg(list, mode_t) : 0;
   va_end(list);
-  return is_it(path) ? open_it() : static_cast<int>(syscall(SYS_openat, AT_FDCWD, path, flags, mode));
+  return is_it(path) ? open_it() : open_other(path, flags, mode);
 }
 
 int close(int descriptor) {
@@ -336,6 +353,7 @@ int ioctl(int descriptor, unsigned long code, ...) {
   void* argument = va_arg(list, void*);
   va_end(list);
   if (descriptor >= 0 && descriptor == camera.descriptor) return answer(code, argument);
+  if (descriptor >= 0 && descriptor == camera.output) return answer_as_output(code, argument);
   return static_cast<int>(syscall(SYS_ioctl, descriptor, code, argument));
 }
 

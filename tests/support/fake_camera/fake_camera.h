@@ -18,6 +18,8 @@ namespace rinkaku::test {
 ///     FAKE_CAMERA_LOSE_EVERY=N    every Nth picture is lost on the way: a gap in the count
 ///     FAKE_CAMERA_DAMAGE_EVERY=N  every Nth picture is marked as damaged
 ///
+///     FAKE_OUTPUT=FILE            a file that answers as a video output device: what is written to it stays
+///
 /// For one open camera and one thread at a time.
 
 /// Byte `i` of the pictures it makes up, by the driver's count.
