@@ -48,9 +48,6 @@ Value parse_text(std::string_view text, const std::filesystem::path& file);
 /// The file's text. Throws Error (Input) as parse_file() does.
 std::string read_text(const std::filesystem::path& file);
 
-/// How a message shows a text of a file: control characters as '?', cut after 60 bytes.
-std::string quotable(std::string_view text);
-
 /// How a message shows a value: `the text "3 px"`, `-0.2`, `a table`, `an array of 2`.
 std::string described(const Value& value);
 
