@@ -145,7 +145,20 @@ Verdict copy_streams(const Facts& f) {
   return {true, "sound and other streams are copied from the input"};
 }
 
-Verdict encode(const Facts&) { return {true, "frames go to the output"}; }
+Verdict show(const Facts& f) {
+  if (!f.request.watched) return {false, "frames are shown by play and live only"};
+  return {true, "frames are shown in a window"};
+}
+
+Verdict virtual_camera(const Facts& f) {
+  if (!f.request.virtual_camera) return {false, "no --virtual-camera was given"};
+  return {true, "other programs read the frames from a virtual camera"};
+}
+
+Verdict encode(const Facts& f) {
+  if (f.request.watched && f.scene.output.path.empty()) return {false, "nothing is recorded"};
+  return {true, "frames go to the output"};
+}
 
 // The table of stages, in the order a frame meets them. A new pass adds its line here.
 struct Kind {
@@ -172,6 +185,8 @@ const std::vector<Kind>& kinds() {
       {"unmultiply", unmultiply, {"draw", "lens"}},
       {"layers", layers, {"draw", "lens"}},
       {"copy-streams", copy_streams, {}},
+      {"show", show, {"decode", "composite", "unmultiply"}},
+      {"virtual-camera", virtual_camera, {"decode", "composite", "unmultiply"}},
       {"encode", encode, {"decode", "composite", "unmultiply", "copy-streams"}},
   };
   return all;
@@ -191,7 +206,7 @@ RegionUse region_use(const ObjectScene& object) {
 
 Plan make_plan(const Scene& scene, const CameraModel* camera, const Request& request) {
   const Facts facts{scene, camera, request};
-  std::set<std::string_view> asked_for = {"encode", "layers"};  // the sinks
+  std::set<std::string_view> asked_for = {"encode", "layers", "show", "virtual-camera"};  // the sinks
   Plan plan;
   for (auto kind = kinds().rbegin(); kind != kinds().rend(); ++kind) {
     Stage stage;

@@ -12,6 +12,8 @@ namespace rinkaku::pipeline {
 /// What a run asks for beside the scene.
 struct Request {
   bool layers = false;             ///< every layer is written as well
+  bool virtual_camera = false;     ///< another program reads the frames
+  bool watched = false;            ///< a window shows the frames; an output is then no must
   std::string no_streams_because;  ///< why the input's other streams can't be copied; empty if they can
 };
 
