@@ -1,0 +1,45 @@
+uniform sampler2DArray transmission;  // premultiplied
+uniform float sine;        // of half the band's width
+uniform float fade_from;   // the part of the band about its middle in which fluff is as opaque as it gets
+uniform float foot_shade;  // what the colour is multiplied by at the skin
+#ifdef LIT
+uniform vec3 shade;        // what the darkest band multiplies the colour by
+uniform float last_band;   // bands - 1
+in float brightness;
+#endif
+
+in vec3 texture_position;
+in float facing;
+in float height;
+in vec3 tint;
+
+layout(location = 0) out vec4 fragment;
+
+#ifdef LIT
+// floor(x), with each step smoothed over one pixel.
+float banded(float x) {
+  float nearest = floor(x + 0.5);
+  return nearest - 0.5 + clamp((x - nearest) / max(fwidth(x), 1e-6), -0.5, 0.5);
+}
+#endif
+
+// The level of detail between what a texel's long side and its area ask for: layers are seen on edge, and would be a
+// blur by the long side alone.
+float level_of_detail(vec2 place) {
+  vec2 texels = vec2(textureSize(transmission, 0).xy);
+  vec2 dx = dFdx(place) * texels, dy = dFdy(place) * texels;
+  float area = abs(dx.x * dy.y - dx.y * dy.x);
+  float longest = max(dot(dx, dx), dot(dy, dy));
+  return max(0.5 * log2(max(mix(area, longest, 0.1), 1e-8)), 0.0);
+}
+
+void main() {
+  float opacity = 1.0 - smoothstep(fade_from, 1.0, abs(facing) / sine);
+  vec4 colour = textureLod(transmission, texture_position, level_of_detail(texture_position.xy)) * opacity;
+  colour.rgb *= tint * mix(foot_shade, 1.0, height);
+#ifdef LIT
+  float level = clamp(banded(brightness), 0.0, last_band);
+  colour.rgb *= mix(shade, vec3(1.0), level / last_band);
+#endif
+  fragment = colour;
+}
