@@ -44,7 +44,8 @@ void DrawOrder::sort(std::size_t count) {
   for (std::size_t i = 0; i < count; ++i) entries_[places_[1][other_[i].key >> 8]++] = other_[i];
 }
 
-std::span<const std::uint32_t> DrawOrder::sorted(std::span<const std::uint32_t> triangles, const glm::dvec3& eye) {
+std::span<const std::uint32_t> DrawOrder::sorted(std::span<const std::uint32_t> triangles, const glm::dvec3& eye,
+                                                 std::uint32_t step) {
   const glm::vec3 from(eye);
   float nearest = 1e30f, farthest = 0;
   for (const std::uint32_t t : triangles) {
@@ -59,13 +60,14 @@ std::span<const std::uint32_t> DrawOrder::sorted(std::span<const std::uint32_t> 
   }
   sort(triangles.size());
 
+  const std::uint32_t lowest = (layers_ - 1) % step;
   std::uint32_t* out = indices_.data();
   for (std::size_t i = 0; i < triangles.size(); ++i) {
     const std::uint32_t t = entries_[i].triangle;
     const bool outwards = glm::dot(normals_[t], from - middles_[t]) >= 0;
     const glm::uvec3 first = triangles_[t] * layers_;
-    for (std::uint32_t k = 0; k < layers_; ++k) {
-      const std::uint32_t layer = outwards ? k : layers_ - 1 - k;
+    for (std::uint32_t k = 0; k < layers_; k += step) {
+      const std::uint32_t layer = outwards ? lowest + k : layers_ - 1 - k;
       *out++ = first.x + layer;
       *out++ = first.y + layer;
       *out++ = first.z + layer;

@@ -21,9 +21,11 @@ class DrawOrder {
   /// `layers` from 1 on.
   DrawOrder(const Frame& frame, std::uint32_t layers);
 
-  /// Indices of the triangles' layers, three a triangle: vertex * layers + layer, layer 0 nearest to the skin.
+  /// Indices of the triangles' layers, three a triangle: vertex * layers + layer, layer 0 nearest to the skin. Of the
+  /// layers, every `step`-th is drawn, counted from the outermost, which always is.
   /// `eye` in the frame's coordinates. The span lives until the next call.
-  std::span<const std::uint32_t> sorted(std::span<const std::uint32_t> triangles, const glm::dvec3& eye);
+  std::span<const std::uint32_t> sorted(std::span<const std::uint32_t> triangles, const glm::dvec3& eye,
+                                        std::uint32_t step = 1);
 
   /// Other points and normals of the frame, as an animated mesh has them each frame.
   void move(const Frame& frame);

@@ -8,6 +8,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
+#include <meshoptimizer.h>
 
 #include "outline/curvature.h"
 #include "outline/fluffy/body_colours.h"
@@ -86,62 +87,80 @@ std::array<std::uint8_t, 4> unorm(const glm::vec4& colour) {
   return out;
 }
 
-// Gives the chosen triangles points and vertices of their own.
-class FrameMaker {
- public:
-  FrameMaker(const mesh::Mesh& mesh, const FrameOptions& options)
-      : mesh_(mesh), options_(options), colours_(body_colours(mesh)), point_of_(mesh.point_count, mesh::kNone) {}
-
-  // Numbers the points; returns which of the mesh's points they are.
-  std::vector<std::uint32_t> add_points(const std::vector<std::uint32_t>& chosen) {
-    std::vector<std::uint32_t> from;
-    for (std::uint32_t f : chosen) {
-      glm::uvec3 corners;
-      for (int k = 0; k < 3; ++k) {
-        std::uint32_t& point = point_of_[mesh_.welded[mesh_.triangles[f][k]]];
-        if (point == mesh::kNone) {
-          point = static_cast<std::uint32_t>(from.size());
-          from.push_back(mesh_.welded[mesh_.triangles[f][k]]);
-        }
-        corners[k] = point;
-      }
-      frame.corners.push_back(corners);
-      frame.source.push_back(f);
+// The triangles that the frame is made of, as the mesh's vertices.
+std::vector<glm::uvec3> chosen_triangles(const mesh::Mesh& mesh, const std::vector<std::uint32_t>& chosen, bool welded) {
+  // Where the mesh's texture coordinates aren't needed, one vertex stands for all of its point.
+  std::vector<std::uint32_t> stand_in(mesh.point_count, mesh::kNone);
+  std::vector<glm::uvec3> triangles;
+  for (const std::uint32_t f : chosen) {
+    glm::uvec3 triangle = mesh.triangles[f];
+    for (int k = 0; welded && k < 3; ++k) {
+      std::uint32_t& vertex = stand_in[mesh.welded[triangle[k]]];
+      if (vertex == mesh::kNone) vertex = triangle[k];
+      triangle[k] = vertex;
     }
-    return from;
+    triangles.push_back(triangle);
   }
+  return triangles;
+}
 
-  void add_vertices(double tile_m) {
-    const bool generated = options_.coordinates == Coordinates::Generated;
-    std::vector<std::uint8_t> axes;
-    if (generated) axes = chart_axes(frame.points, frame.corners);
-    for (std::size_t t = 0; t < frame.corners.size(); ++t) {
-      glm::uvec3 triangle;
-      for (int k = 0; k < 3; ++k) {
-        const std::uint32_t vertex = mesh_.triangles[frame.source[t]][k];
-        const std::uint8_t axis = generated ? axes[t] : 0;
-        const auto [at, fresh] = known_.try_emplace({vertex, axis}, frame.vertices.size());
-        if (fresh) {
-          const std::uint32_t point = frame.corners[t][k];
-          const glm::vec2 uv = generated ? chart_uv(frame.points[point], axis, tile_m)
-                                         : mesh_.uvs[vertex] * static_cast<float>(options_.repeat);
-          frame.vertices.push_back({point, uv, unorm(colours_[vertex])});
-        }
-        triangle[k] = static_cast<std::uint32_t>(at->second);
+// Fewer triangles over the same vertices, within `error_m` of where they were (by quadrics).
+void make_coarser(std::vector<glm::uvec3>& triangles, const mesh::Mesh& mesh, const std::vector<glm::dvec3>& points,
+                  double error_m) {
+  std::vector<glm::vec3> places;
+  for (const std::uint32_t point : mesh.welded) places.emplace_back(points[point]);
+  std::vector<unsigned> indices;
+  for (const glm::uvec3& t : triangles) indices.insert(indices.end(), {t.x, t.y, t.z});
+  const float extent = meshopt_simplifyScale(&places[0].x, places.size(), sizeof(glm::vec3));
+  const auto error = static_cast<float>(error_m) / extent;
+  const std::size_t left = meshopt_simplify(indices.data(), indices.data(), indices.size(), &places[0].x,
+                                            places.size(), sizeof(glm::vec3), 0, error, 0, nullptr);
+  triangles.clear();
+  for (std::size_t i = 0; i + 2 < left; i += 3) triangles.emplace_back(indices[i], indices[i + 1], indices[i + 2]);
+}
+
+// Numbers the points of the triangles; returns which of the mesh's points they are.
+std::vector<std::uint32_t> add_points(Frame& frame, const mesh::Mesh& mesh, const std::vector<glm::uvec3>& triangles) {
+  std::vector<std::uint32_t> number_of(mesh.point_count, mesh::kNone), from;
+  for (const glm::uvec3& triangle : triangles) {
+    glm::uvec3 corners;
+    for (int k = 0; k < 3; ++k) {
+      std::uint32_t& number = number_of[mesh.welded[triangle[k]]];
+      if (number == mesh::kNone) {
+        number = static_cast<std::uint32_t>(from.size());
+        from.push_back(mesh.welded[triangle[k]]);
       }
-      frame.triangles.push_back(triangle);
+      corners[k] = number;
     }
+    frame.corners.push_back(corners);
   }
+  return from;
+}
 
-  Frame frame;
-
- private:
-  const mesh::Mesh& mesh_;
-  const FrameOptions& options_;
-  std::vector<glm::vec4> colours_;
-  std::vector<std::uint32_t> point_of_;
-  std::map<std::pair<std::uint32_t, std::uint8_t>, std::size_t> known_;
-};
+void add_vertices(Frame& frame, const mesh::Mesh& mesh, const std::vector<glm::uvec3>& triangles,
+                  const FrameOptions& options, double tile_m) {
+  const std::vector<glm::vec4> colours = body_colours(mesh);
+  const bool generated = options.coordinates == Coordinates::Generated;
+  std::vector<std::uint8_t> axes;
+  if (generated) axes = chart_axes(frame.points, frame.corners);
+  std::map<std::pair<std::uint32_t, std::uint8_t>, std::size_t> known;
+  for (std::size_t t = 0; t < triangles.size(); ++t) {
+    glm::uvec3 corners;
+    for (int k = 0; k < 3; ++k) {
+      const std::uint32_t vertex = triangles[t][k];
+      const std::uint8_t axis = generated ? axes[t] : 0;
+      const auto [at, fresh] = known.try_emplace({vertex, axis}, frame.vertices.size());
+      if (fresh) {
+        const std::uint32_t point = frame.corners[t][k];
+        const glm::vec2 uv = generated ? chart_uv(frame.points[point], axis, tile_m)
+                                       : mesh.uvs[vertex] * static_cast<float>(options.repeat);
+        frame.vertices.push_back({point, uv, unorm(colours[vertex])});
+      }
+      corners[k] = static_cast<std::uint32_t>(at->second);
+    }
+    frame.triangles.push_back(corners);
+  }
+}
 
 }  // namespace
 
@@ -166,19 +185,22 @@ Frame make_frame(const mesh::Mesh& mesh, const mesh::Topology& topology, const g
     weights[mesh.welded[v]] = std::max(weights[mesh.welded[v]], chosen.weights[v]);
   }
 
-  FrameMaker maker(mesh, options);
   const double length_m = base_length_m(options, centre.mean_radius_m);
-  for (const std::uint32_t p : maker.add_points(chosen.triangles)) {
+  std::vector<glm::uvec3> triangles =
+      chosen_triangles(mesh, chosen.triangles, options.coordinates == Coordinates::Generated);
+  if (options.coarseness > 0) make_coarser(triangles, mesh, points, options.coarseness * length_m);
+  Frame frame;
+  for (const std::uint32_t p : add_points(frame, mesh, triangles)) {
     const double share = static_cast<double>(weights[p] * factors[p]);
-    const glm::dvec3 growth =
-        options.growth == Growth::Scaled ? (options.scale - 1) * (points[p] - centre.place) : length_m * normals[p];
-    maker.frame.points.emplace_back(points[p]);
-    maker.frame.normals.emplace_back(normals[p]);
-    maker.frame.growth.emplace_back(growth * share);
-    maker.frame.longest_m = std::max(maker.frame.longest_m, static_cast<float>(glm::length(growth) * share));
+    const glm::dvec3 growth = options.growth == Growth::Scaled ? (options.scale - 1) * (points[p] - centre.place)
+                                                               : length_m * normals[p];
+    frame.points.emplace_back(points[p]);
+    frame.normals.emplace_back(normals[p]);
+    frame.growth.emplace_back(growth * share);
+    frame.longest_m = std::max(frame.longest_m, static_cast<float>(glm::length(growth) * share));
   }
-  maker.add_vertices(options.tile_m.value_or(options.tile_lengths * length_m));
-  return std::move(maker.frame);
+  add_vertices(frame, mesh, triangles, options, options.tile_m.value_or(options.tile_lengths * length_m));
+  return frame;
 }
 
 }  // namespace rinkaku::fluffy

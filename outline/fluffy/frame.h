@@ -31,7 +31,6 @@ struct Frame {
   std::vector<glm::uvec3> corners;    ///< per triangle: its points
   std::vector<FrameVertex> vertices;  ///< points, once for each chart they are in
   std::vector<glm::uvec3> triangles;  ///< the same triangles, as vertices
-  std::vector<std::uint32_t> source;  ///< per triangle: the mesh's triangle it is
   float longest_m = 0;                ///< of all growth
 };
 
@@ -40,7 +39,7 @@ struct Frame {
 /// `world_from_object` is the linear part of the object's place: turns and scales, also uneven and mirroring ones.
 /// Preconditions: `topology` is the mesh's. Throws Error (Input) naming `where` if a name in the options is nowhere in
 /// the mesh, if nothing is chosen, or if vertex colours or texture coordinates are asked for that the mesh has not.
-/// Cost: about 1 microsecond a triangle, with curvature 2.
+/// Cost: about 1 microsecond a triangle, with curvature or a coarser frame 2.
 /// Yamachi, Shindo and Matuda, "Display Method for Fluffy Objects with Extention of Texture Mapping", 2, step 1.
 Frame make_frame(const mesh::Mesh& mesh, const mesh::Topology& topology, const glm::dmat3& world_from_object,
                  const FrameOptions& options, const char* where);

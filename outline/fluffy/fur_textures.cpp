@@ -91,13 +91,6 @@ float height_of(FurKind kind, const glm::vec2& texel) {
 
 }  // namespace
 
-std::optional<FurKind> fur_kind(std::string_view name) {
-  if (name == "fur") return FurKind::Fur;
-  if (name == "wool") return FurKind::Wool;
-  if (name == "down") return FurKind::Down;
-  return std::nullopt;
-}
-
 int tufts_across(FurKind kind) {
   switch (kind) {
     case FurKind::Fur:
@@ -106,6 +99,18 @@ int tufts_across(FurKind kind) {
       return 14;
     case FurKind::Down:
       return 40;
+  }
+  return 1;
+}
+
+double tuft_width(FurKind kind) {
+  switch (kind) {
+    case FurKind::Fur:
+      return 0.5;
+    case FurKind::Wool:
+      return 1.1;
+    case FurKind::Down:
+      return 0.22;
   }
   return 1;
 }

@@ -37,6 +37,8 @@ struct FrameOptions {
   Coordinates coordinates = Coordinates::Generated;
   std::optional<double> tile_m;  ///< generated: how large the texture lies on the surface
   double tile_lengths = 8;       ///< the same in lengths of the fluff, where tile_m is not given
+  /// How far a coarser frame than the mesh may lie from it, in lengths of the fluff; 0: the mesh's own triangles.
+  double coarseness = 0;
   double repeat = 1;             ///< the mesh's: how often the texture goes into theirs
 };
 

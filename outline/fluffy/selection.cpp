@@ -60,7 +60,7 @@ Chosen choose(const mesh::Mesh& mesh, const Selection& selection, const char* wh
   if (selection.painted_channel >= 0) {
     if (mesh.colours.empty()) {
       throw input_error(where, "the mesh has no vertex colours to paint fluff with",
-                        "leave 'paint' out, or paint the mesh's vertices");
+                        "leave 'vertex_paint' out, or paint the mesh's vertices");
     }
     for (std::size_t v = 0; v < chosen.weights.size(); ++v) {
       chosen.weights[v] = std::clamp(mesh.colours[v][selection.painted_channel], 0.0f, 1.0f);
@@ -76,7 +76,7 @@ Chosen choose(const mesh::Mesh& mesh, const Selection& selection, const char* wh
   }
   std::sort(chosen.triangles.begin(), chosen.triangles.end());
   if (chosen.triangles.empty()) {
-    throw input_error(where, "the vertex paint is 0 everywhere", "choose another channel for 'paint'");
+    throw input_error(where, "the vertex paint is 0 everywhere", "choose another channel for 'vertex_paint'");
   }
   return chosen;
 }

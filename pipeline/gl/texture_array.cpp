@@ -24,7 +24,7 @@ TextureArray::TextureArray(int width_px, int height_px, int layers, std::span<co
   }
   glTextureSubImage3D(name, 0, 0, 0, 0, width_px, height_px, layers, GL_RGBA, GL_UNSIGNED_BYTE, rgba.data());
   glGenerateTextureMipmap(name);
-  glTextureParameteri(name, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
+  glTextureParameteri(name, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_NEAREST);
   glTextureParameteri(name, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
 }
 
