@@ -51,8 +51,8 @@ Fluff prepare_fluff(const ObjectScene& object, const mesh::Mesh& mesh, const glm
   }
   options.coarseness = 0.2;
   Fluff fluff;
-  fluff.frame = fluffy::make_frame(mesh, mesh::topology(mesh), glm::dmat3(world_from_object), options,
-                                   scene.where.c_str());
+  fluff.frame =
+      fluffy::make_frame(mesh, mesh::topology(mesh), glm::dmat3(world_from_object), options, scene.where.c_str());
   fluff.image = transmission_of(scene);
   return fluff;
 }

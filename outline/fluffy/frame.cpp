@@ -5,10 +5,11 @@
 #include <map>
 #include <utility>
 
+#include <meshoptimizer.h>
+
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
-#include <meshoptimizer.h>
 
 #include "outline/curvature.h"
 #include "outline/fluffy/body_colours.h"
@@ -88,7 +89,8 @@ std::array<std::uint8_t, 4> unorm(const glm::vec4& colour) {
 }
 
 // The triangles that the frame is made of, as the mesh's vertices.
-std::vector<glm::uvec3> chosen_triangles(const mesh::Mesh& mesh, const std::vector<std::uint32_t>& chosen, bool welded) {
+std::vector<glm::uvec3> chosen_triangles(const mesh::Mesh& mesh, const std::vector<std::uint32_t>& chosen,
+                                         bool welded) {
   // Where the mesh's texture coordinates aren't needed, one vertex stands for all of its point.
   std::vector<std::uint32_t> stand_in(mesh.point_count, mesh::kNone);
   std::vector<glm::uvec3> triangles;
@@ -113,8 +115,8 @@ void make_coarser(std::vector<glm::uvec3>& triangles, const mesh::Mesh& mesh, co
   for (const glm::uvec3& t : triangles) indices.insert(indices.end(), {t.x, t.y, t.z});
   const float extent = meshopt_simplifyScale(&places[0].x, places.size(), sizeof(glm::vec3));
   const auto error = static_cast<float>(error_m) / extent;
-  const std::size_t left = meshopt_simplify(indices.data(), indices.data(), indices.size(), &places[0].x,
-                                            places.size(), sizeof(glm::vec3), 0, error, 0, nullptr);
+  const std::size_t left = meshopt_simplify(indices.data(), indices.data(), indices.size(), &places[0].x, places.size(),
+                                            sizeof(glm::vec3), 0, error, 0, nullptr);
   triangles.clear();
   for (std::size_t i = 0; i + 2 < left; i += 3) triangles.emplace_back(indices[i], indices[i + 1], indices[i + 2]);
 }
@@ -192,8 +194,8 @@ Frame make_frame(const mesh::Mesh& mesh, const mesh::Topology& topology, const g
   Frame frame;
   for (const std::uint32_t p : add_points(frame, mesh, triangles)) {
     const double share = static_cast<double>(weights[p] * factors[p]);
-    const glm::dvec3 growth = options.growth == Growth::Scaled ? (options.scale - 1) * (points[p] - centre.place)
-                                                               : length_m * normals[p];
+    const glm::dvec3 growth =
+        options.growth == Growth::Scaled ? (options.scale - 1) * (points[p] - centre.place) : length_m * normals[p];
     frame.points.emplace_back(points[p]);
     frame.normals.emplace_back(normals[p]);
     frame.growth.emplace_back(growth * share);

@@ -25,68 +25,98 @@ float chance(int x, int y, std::uint32_t salt) {
   return static_cast<float>(h) / 4294967296.0f;
 }
 
-// What stands at one place of a jittered grid that repeats.
+// What stands in one cell of a jittered grid that repeats.
 struct Seed {
-  glm::vec2 way{0};    // from it to the texel, in cells
+  glm::vec2 place{0};  // within the cell, 0 to 1
   float height = 0;    // chance, 0 to 1
   float turn_rad = 0;  // chance
 };
 
-// Calls `with` for the seeds of the 5 x 5 cells about a texel.
-template <typename With>
-void for_seeds_around(const glm::vec2& texel, int cells, std::uint32_t salt, With with) {
-  const glm::vec2 at = texel * (static_cast<float>(cells) / side_px);
-  const int x0 = static_cast<int>(std::floor(at.x)), y0 = static_cast<int>(std::floor(at.y));
-  for (int y = y0 - 2; y <= y0 + 2; ++y) {
-    for (int x = x0 - 2; x <= x0 + 2; ++x) {
-      const int cx = (x + cells) % cells, cy = (y + cells) % cells;
-      Seed seed;
-      const glm::vec2 place(static_cast<float>(x) + chance(cx, cy, salt),
-                            static_cast<float>(y) + chance(cx, cy, salt + 1));
-      seed.way = at - place;
-      seed.height = chance(cx, cy, salt + 2);
-      seed.turn_rad = chance(cx, cy, salt + 3) * 2 * std::numbers::pi_v<float>;
-      with(seed);
+class Seeds {
+ public:
+  Seeds(int cells, std::uint32_t salt) : cells_(cells) {
+    for (int y = 0; y < cells; ++y) {
+      for (int x = 0; x < cells; ++x) {
+        seeds_.push_back({{chance(x, y, salt), chance(x, y, salt + 1)},
+                          chance(x, y, salt + 2),
+                          chance(x, y, salt + 3) * 2 * std::numbers::pi_v<float>});
+      }
     }
   }
-}
 
-// Cones of uneven height: the highest over the texel.
-float cones(const glm::vec2& texel, int cells, std::uint32_t salt, float radius, float uneven) {
+  // Calls `with` for the seeds that may be within 1.5 cells of a texel, and the way from each to the texel in cells.
+  template <typename With>
+  void around(const glm::vec2& texel, With with) const {
+    const glm::vec2 at = texel * (static_cast<float>(cells_) / side_px);
+    const int x0 = static_cast<int>(std::floor(at.x - 0.5f)), y0 = static_cast<int>(std::floor(at.y - 0.5f));
+    for (int y = y0 - 1; y <= y0 + 2; ++y) {
+      for (int x = x0 - 1; x <= x0 + 2; ++x) {
+        const int cell = ((y + cells_) % cells_) * cells_ + (x + cells_) % cells_;
+        const Seed& seed = seeds_[static_cast<std::size_t>(cell)];
+        with(seed, at - glm::vec2(x, y) - seed.place);
+      }
+    }
+  }
+
+ private:
+  int cells_;
+  std::vector<Seed> seeds_;
+};
+
+// Cones of uneven height: the highest over the texel. `radius` in cells, to 1.5.
+float cones(const glm::vec2& texel, const Seeds& seeds, float radius, float uneven) {
   float highest = 0;
-  for_seeds_around(texel, cells, salt, [&](const Seed& seed) {
+  seeds.around(texel, [&](const Seed& seed, const glm::vec2& way) {
     const float height = 1 - uneven * seed.height;
-    highest = std::max(highest, height * (1 - glm::length(seed.way) / radius));
+    highest = std::max(highest, height * (1 - glm::length(way) / radius));
   });
   return highest;
 }
 
 // Round heaps, each with an arm that winds inwards.
-float curls(const glm::vec2& texel, int cells, std::uint32_t salt) {
+float curls(const glm::vec2& texel, const Seeds& seeds) {
   constexpr float radius = 0.95f;
   float highest = 0;
-  for_seeds_around(texel, cells, salt, [&](const Seed& seed) {
-    const float r = glm::length(seed.way) / radius;
+  seeds.around(texel, [&](const Seed& seed, const glm::vec2& way) {
+    const float r = glm::length(way) / radius;
     if (r >= 1) return;
-    const float angle = std::atan2(seed.way.y, seed.way.x) + seed.turn_rad;
+    const float angle = std::atan2(way.y, way.x) + seed.turn_rad;
     const float arm = 0.5f + 0.5f * std::cos(angle * (seed.height > 0.5f ? 1.0f : -1.0f) + 9.0f * r);
     highest = std::max(highest, std::sqrt(1 - r * r) * (0.72f + 0.18f * arm + 0.1f * seed.height));
   });
   return highest;
 }
 
-float height_of(FurKind kind, const glm::vec2& texel) {
+std::vector<float> heights_of(FurKind kind) {
   const int tufts = tufts_across(kind);
+  std::vector<float> heights;
+  heights.reserve(static_cast<std::size_t>(side_px) * side_px);
+  const auto fill = [&](auto height) {
+    for (int y = 0; y < side_px; ++y) {
+      for (int x = 0; x < side_px; ++x) heights.push_back(height(glm::vec2(x, y) + 0.5f));
+    }
+  };
   switch (kind) {
-    case FurKind::Fur:
-      // Hairs stand closer and are highest where their tuft is.
-      return 0.62f * cones(texel, tufts, 11, 1.25f, 0.45f) + 0.38f * cones(texel, tufts * 3, 23, 1.1f, 0.5f);
-    case FurKind::Wool:
-      return 0.9f * curls(texel, tufts, 41) + 0.1f * cones(texel, tufts * 5, 53, 1.2f, 0.6f);
-    case FurKind::Down:
-      return 0.8f * cones(texel, tufts, 61, 1.2f, 0.6f) + 0.2f * cones(texel, tufts / 4, 71, 1.4f, 0.5f);
+    case FurKind::Fur: {
+      // Hairs stand closer than tufts and are highest where their tuft is.
+      const Seeds coarse(tufts, 11), fine(tufts * 3, 23);
+      fill([&](const glm::vec2& t) {
+        return 0.62f * cones(t, coarse, 1.25f, 0.45f) + 0.38f * cones(t, fine, 1.1f, 0.5f);
+      });
+      break;
+    }
+    case FurKind::Wool: {
+      const Seeds coarse(tufts, 41), fine(tufts * 5, 53);
+      fill([&](const glm::vec2& t) { return 0.9f * curls(t, coarse) + 0.1f * cones(t, fine, 1.2f, 0.6f); });
+      break;
+    }
+    case FurKind::Down: {
+      const Seeds coarse(tufts / 4, 71), fine(tufts, 61);
+      fill([&](const glm::vec2& t) { return 0.2f * cones(t, coarse, 1.4f, 0.5f) + 0.8f * cones(t, fine, 1.2f, 0.6f); });
+      break;
+    }
   }
-  return 0;
+  return heights;
 }
 
 }  // namespace
@@ -116,11 +146,8 @@ double tuft_width(FurKind kind) {
 }
 
 mesh::Texture fur_texture(FurKind kind) {
-  constexpr std::size_t count = static_cast<std::size_t>(side_px) * side_px;
-  std::vector<float> heights(count);
-  for (std::size_t i = 0; i < count; ++i) {
-    heights[i] = height_of(kind, {static_cast<float>(i % side_px) + 0.5f, static_cast<float>(i / side_px) + 0.5f});
-  }
+  const std::vector<float> heights = heights_of(kind);
+  const std::size_t count = heights.size();
   // Each texel's rank, so that all heights are equally frequent.
   std::vector<std::uint32_t> order(count);
   std::iota(order.begin(), order.end(), 0u);

@@ -12,7 +12,7 @@ int tufts_across(FurKind kind);
 double tuft_width(FurKind kind);
 
 /// Draws one: 512 x 512 texels, grey, opaque, repeating without a seam, the same on every call. Luminance is height,
-/// spread evenly from 0 to 1, so that a threshold t keeps 1 - t of it. Cost: about 100 ms.
+/// spread evenly from 0 to 1, so that a threshold t keeps 1 - t of it. Cost: about 50 ms.
 mesh::Texture fur_texture(FurKind kind);
 
 }  // namespace rinkaku::fluffy

@@ -39,7 +39,7 @@ struct FrameOptions {
   double tile_lengths = 8;       ///< the same in lengths of the fluff, where tile_m is not given
   /// How far a coarser frame than the mesh may lie from it, in lengths of the fluff; 0: the mesh's own triangles.
   double coarseness = 0;
-  double repeat = 1;             ///< the mesh's: how often the texture goes into theirs
+  double repeat = 1;  ///< the mesh's: how often the texture goes into theirs
 };
 
 /// The length that fluff has along normals before it is varied, in metres; see FrameOptions::scale.

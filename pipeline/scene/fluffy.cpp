@@ -25,8 +25,7 @@ void read_texture(const Table& fluffy, FluffyScene& scene) {
   }
   scene.threshold = fluffy.number("threshold", {0, 1}).value_or(scene.threshold);
   using Keep = FluffyScene::Keep;
-  scene.keep =
-      read_choice<Keep>(fluffy, "keep", {{"above", Keep::Above}, {"below", Keep::Below}}).value_or(scene.keep);
+  scene.keep = read_choice<Keep>(fluffy, "keep", {{"above", Keep::Above}, {"below", Keep::Below}}).value_or(scene.keep);
 }
 
 // One name or several.
@@ -48,9 +47,8 @@ void read_frame(const Table& fluffy, fluffy::FrameOptions& frame) {
   frame.selection.names = read_names(fluffy, "parts");
   frame.selection.painted_channel =
       read_choice<int>(fluffy, "vertex_paint", {{"red", 0}, {"green", 1}, {"blue", 2}, {"alpha", 3}}).value_or(-1);
-  frame.growth =
-      read_choice<Growth>(fluffy, "mode", {{"normals", Growth::AlongNormals}, {"scaled", Growth::Scaled}})
-          .value_or(frame.growth);
+  frame.growth = read_choice<Growth>(fluffy, "mode", {{"normals", Growth::AlongNormals}, {"scaled", Growth::Scaled}})
+                     .value_or(frame.growth);
   fluffy.exclude("scale", "length_m");
   frame.scale = fluffy.number("scale", Limits::above(1, 3)).value_or(frame.scale);
   frame.length_m = fluffy.number("length_m", Limits::above(0, 1000));
@@ -98,10 +96,10 @@ void read_paint(const Table& fluffy, FluffyScene& scene) {
 }  // namespace
 
 toml::Schema fluffy_schema() {
-  return {{.path = "object.fluffy",
-           .keys = {"texture", "threshold", "keep", "parts", "vertex_paint", "mode", "scale", "length_m",
-                    "exaggeration", "coordinates", "tile_m", "repeat", "angle_deg", "layers", "colour", "hang", "line",
-                    "cut"}}};
+  return {
+      {.path = "object.fluffy",
+       .keys = {"texture", "threshold", "keep", "parts", "vertex_paint", "mode", "scale", "length_m", "exaggeration",
+                "coordinates", "tile_m", "repeat", "angle_deg", "layers", "colour", "hang", "line", "cut"}}};
 }
 
 std::optional<FluffyScene> read_fluffy(const Table& object, bool outlined) {
@@ -124,11 +122,9 @@ std::optional<FluffyScene> read_fluffy(const Table& object, bool outlined) {
     throw fluffy->error_at("line", "says where the outline runs, and the object has none", "add 'outline' to it");
   }
   using Cut = FluffyScene::Cut;
-  scene.cut = read_choice<Cut>(*fluffy, "cut",
-                               {{"exact", Cut::Exact},
-                                {"regions", Cut::Regions},
-                                {"nearest", Cut::Nearest},
-                                {"none", Cut::None}})
+  scene.cut = read_choice<Cut>(
+                  *fluffy, "cut",
+                  {{"exact", Cut::Exact}, {"regions", Cut::Regions}, {"nearest", Cut::Nearest}, {"none", Cut::None}})
                   .value_or(scene.cut);
   return scene;
 }

@@ -20,12 +20,13 @@ struct FluffyScene {
   double threshold = 0.5;
   enum class Keep { Above, Below } keep = Keep::Above;
   fluffy::FrameOptions frame;
-  bool mesh_coordinates_if_any = false;  ///< the mesh's texture coordinates instead of frame.coordinates, if it has them
-  double angle_deg = 70;       ///< w, the band's full width
+  bool mesh_coordinates_if_any =
+      false;              ///< the mesh's texture coordinates instead of frame.coordinates, if it has them
+  double angle_deg = 70;  ///< w, the band's full width
   int layers = 12;
   enum class Paint { Body, Texture, Own } paint = Paint::Body;
-  std::array<double, 3> colour{1, 1, 1};  ///< sRGB; for Paint::Own
-  double hang = 0.25;                     ///< how far tips hang down, in lengths of the fluff
+  std::array<double, 3> colour{1, 1, 1};                 ///< sRGB; for Paint::Own
+  double hang = 0.25;                                    ///< how far tips hang down, in lengths of the fluff
   enum class Line { Body, Rim, None } line = Line::Rim;  ///< where the object's outline runs, if it has one
   enum class Cut { Exact, Regions, Nearest, None } cut = Cut::Exact;
 };

@@ -114,9 +114,10 @@ double FluffyPass::reach_px(const passes::View& view) const {
 // layers between fade in, so that none pops up.
 FluffyPass::Density FluffyPass::density(const passes::View& view) const {
   constexpr double apart_px = 1.5;
+  constexpr double fewest = 4;  // or there is nothing left of what the lower ones cover
   const passes::Look& look = object_.shape().last_look();
   const double nearest_m = std::max(look.nearest_m, passes::near_m);
-  const double wished = std::max(view.camera.fx_px * longest_m_ / (nearest_m * apart_px), 1.0);
+  const double wished = std::max(view.camera.fx_px * longest_m_ / (nearest_m * apart_px), fewest);
   std::uint32_t step = 1;
   while (step < layers_ && layers_ / (2.0 * step) >= wished) step *= 2;
   const double half = layers_ / (2.0 * step);  // how many there are without the fresh ones

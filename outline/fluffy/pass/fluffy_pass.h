@@ -26,10 +26,10 @@ struct RimLine {
 
 struct FluffyOptions {
   CutOptions cut;
-  float fade_from = 0.45f;                      ///< 0 to 1: the part of the band in which fluff doesn't fade yet
-  glm::vec3 hang{0, 0, -0.25f};                 ///< in the world: where the tips hang, in lengths of the fluff
-  float foot_shade = 0.88f;                     ///< what fluff's colour is multiplied by at the skin
-  std::optional<glm::vec3> colour;              ///< sRGB-encoded, instead of the body's
+  float fade_from = 0.45f;          ///< 0 to 1: the part of the band in which fluff doesn't fade yet
+  glm::vec3 hang{0, 0, -0.25f};     ///< in the world: where the tips hang, in lengths of the fluff
+  float foot_shade = 0.88f;         ///< what fluff's colour is multiplied by at the skin
+  std::optional<glm::vec3> colour;  ///< sRGB-encoded, instead of the body's
   std::optional<RimLine> rim;
   int bands = 3;                                ///< of light and shade, as the body has them; 0: unlit
   glm::vec3 shade_colour{0.62f, 0.60f, 0.78f};  ///< what the darkest band multiplies the colour by
