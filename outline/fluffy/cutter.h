@@ -24,7 +24,7 @@ enum class CutMethod {
 struct CutOptions {
   CutMethod method = CutMethod::Exact;
   double sine = 0;                                                                 ///< see band_sine()
-  silhouette::RegionLayout regions{.cells = 14, .shells = 8, .inner_radii = 1.5};  ///< for Regions
+  silhouette::RegionLayout regions{.cells = 12, .shells = 6, .inner_radii = 1.5};  ///< for Regions
   std::uint32_t candidates = 600;                                                  ///< for Nearest
 };
 

@@ -1,11 +1,14 @@
 #include "outline/fluffy/draw_order.h"
 
+#include <cmath>
 #include <numeric>
 #include <vector>
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
+#include "outline/fluffy/cutter.h"
+#include "tests/outline/allocation_count.h"
 #include "tests/outline/fluffy/frames.h"
 
 namespace rinkaku::test {
@@ -70,6 +73,24 @@ TEST(DrawOrder, FewerLayersKeepTheOutermost) {
       highest = std::max(highest, index % layers);
     }
     EXPECT_EQ(highest, layers - 1);
+  }
+}
+
+TEST(DrawOrder, FindingAndSortingAllocateNothingOnceWarm) {
+  const fluffy::Frame frame = frame_of(sphere(4));
+  for (const auto method : {fluffy::CutMethod::Exact, fluffy::CutMethod::Regions, fluffy::CutMethod::Nearest}) {
+    fluffy::CutOptions options;
+    options.method = method;
+    options.sine = 0.5;
+    options.regions = {.cells = 3, .shells = 2, .inner_radii = 1.5};
+    fluffy::Cutter cutter(frame, options);
+    fluffy::DrawOrder order(frame, 5);
+    const long before = allocations();
+    for (int i = 0; i < 100; ++i) {
+      const glm::dvec3 eye(3 * std::cos(i * 0.1), 3 * std::sin(i * 0.1), 1);
+      EXPECT_FALSE(order.sorted(cutter.find(eye), eye).empty());
+    }
+    EXPECT_EQ(allocations(), before);
   }
 }
 
