@@ -247,7 +247,7 @@ Turn turn_of(const mesh::Mesh& mesh, const fluffy::FluffyOptions& options, const
 void print_turn(const mesh::Mesh& mesh) {
   const auto context = gl::Context::headless();
   fluffy::TransmissionOptions transmission;
-  transmission.layers = 12;
+  transmission.layers = 16;
   const fluffy::TransmissionImage image =
       fluffy::make_transmission(fluffy::fur_texture(fluffy::FurKind::Fur), transmission, "fur");
   fluffy::FrameOptions frame;

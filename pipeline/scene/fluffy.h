@@ -23,7 +23,7 @@ struct FluffyScene {
   bool mesh_coordinates_if_any =
       false;              ///< the mesh's texture coordinates instead of frame.coordinates, if it has them
   double angle_deg = 70;  ///< w, the band's full width
-  int layers = 12;
+  int layers = 16;
   enum class Paint { Body, Texture, Own } paint = Paint::Body;
   std::array<double, 3> colour{1, 1, 1};                 ///< sRGB; for Paint::Own
   double hang = 0.25;                                    ///< how far tips hang down, in lengths of the fluff

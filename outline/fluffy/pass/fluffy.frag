@@ -43,8 +43,8 @@ float level_of_detail(vec2 place) {
 float widened(vec3 place, float lod) {
   vec2 along_x = dFdx(place.xy) * rim_px, along_y = dFdy(place.xy) * rim_px;
   float most = textureLod(transmission, place, lod).a;
-  for (int k = 0; k < 6; ++k) {
-    vec2 step = vec2(cos(1.0472 * float(k)), sin(1.0472 * float(k)));
+  for (int k = 0; k < 5; ++k) {
+    vec2 step = vec2(cos(1.2566 * float(k)), sin(1.2566 * float(k)));
     most = max(most, textureLod(transmission, vec3(place.xy + along_x * step.x + along_y * step.y, place.z), lod).a);
   }
   return most;
