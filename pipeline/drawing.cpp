@@ -13,6 +13,7 @@
 #include "outline/curvature.h"
 #include "outline/line_width.h"
 #include "outline/pass/hull_pass.h"
+#include "pipeline/fluff.h"
 #include "pipeline/gl/context.h"
 #include "pipeline/in_parallel.h"
 #include "pipeline/passes/holdout/holdout_pass.h"
@@ -73,6 +74,7 @@ struct PreparedObject {
   passes::ToonOptions toon;
   passes::ObjectShape shape;
   std::vector<float> line_factors;
+  std::optional<Fluff> fluff;
 };
 
 mesh::Imported import_mesh(const ObjectScene& object) {
@@ -98,7 +100,10 @@ PreparedObject prepare(mesh::Imported imported, const ObjectScene& object, const
   const passes::ToonOptions toon = toon_options(object, light);
   passes::ObjectShape shape(mesh, place, passes::band_borders(mesh, place, toon));
   std::vector<float> factors = line_factors(object, mesh);
-  return {std::move(imported), toon, std::move(shape), std::move(factors)};
+  std::optional<Fluff> fluff;
+  if (object.fluffy) fluff = prepare_fluff(object, mesh, place);
+  if (object.fluffy && object.outline) thin_line_under_fluff(factors, object, mesh);
+  return {std::move(imported), toon, std::move(shape), std::move(factors), std::move(fluff)};
 }
 
 // One object after the other, as baking takes all cores.
@@ -166,12 +171,17 @@ std::vector<passes::StyledObject> style(const Scene& scene, std::vector<std::opt
     passes::StyledObject one;
     one.object = std::make_unique<passes::DrawnObject>(std::move(prepared.shape));
     // The list of passes, in drawing order. A new pass adds its line here.
+    // Edges are drawn from the list's end on.
+    std::unique_ptr<passes::ObjectPass> fluff;
+    if (prepared.fluff) fluff = make_fluffy_pass(*one.object, *prepared.fluff, object, scene.light);
+    if (fluff && !fluff_is_under_line(object)) one.passes.push_back(std::move(fluff));
     if (object.holdout) {
       one.passes.push_back(std::make_unique<passes::HoldoutPass>(*one.object));
     } else {
       one.passes.push_back(std::make_unique<passes::ToonPass>(*one.object, prepared.imported.mesh, prepared.toon));
     }
     add_outline(one.passes, *one.object, object, prepared.line_factors);
+    if (fluff) one.passes.push_back(std::move(fluff));
     styled.push_back(std::move(one));
   }
   return styled;

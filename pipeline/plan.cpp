@@ -113,6 +113,13 @@ Verdict curvature(const Facts& f) {
   return {true, "the line's width follows the curvature of " + objects(n)};
 }
 
+Verdict fluffy(const Facts& f) {
+  if (!f.draws()) return {false, no_object};
+  const std::size_t n = f.count([](const ObjectScene& o) { return o.fluffy.has_value(); });
+  if (n == 0) return {false, "no object is fluffy"};
+  return {true, objects(n) + " with fluff about the contour"};
+}
+
 Verdict draw(const Facts& f) {
   if (!f.draws()) return {false, std::string(no_object) + ": no OpenGL context is made"};
   return {true, objects(f.scene.objects.size()) + " to draw"};
@@ -179,7 +186,8 @@ const std::vector<Kind>& kinds() {
       {"regions", regions, {"import"}},
       {"curvature", curvature, {"import"}},
       {"outline", outline, {"import", "curvature"}},
-      {"draw", draw, {"decode", "track", "smooth", "toon", "flat", "holdout", "regions", "outline"}},
+      {"fluffy", fluffy, {"import"}},
+      {"draw", draw, {"decode", "track", "smooth", "toon", "flat", "holdout", "regions", "outline", "fluffy"}},
       {"lens", lens, {"draw"}},
       {"composite", composite, {"decode", "draw", "lens"}},
       {"unmultiply", unmultiply, {"draw", "lens"}},

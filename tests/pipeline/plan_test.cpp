@@ -74,6 +74,14 @@ TEST(Plan, ToonObjectIsTrackedDrawnAndComposited) {
             (Names{"decode", "track", "smooth", "import", "toon", "draw", "composite", "copy-streams", "encode"}));
 }
 
+TEST(Plan, FluffIsDrawnOnlyIfAnObjectHasIt) {
+  Scene scene = drawn_scene();
+  EXPECT_FALSE(plan_of(scene).runs("fluffy"));
+  EXPECT_EQ(stage(plan_of(scene), "fluffy").why, "no object is fluffy");
+  scene.objects[0].fluffy.emplace();
+  EXPECT_TRUE(plan_of(scene).runs("fluffy"));
+}
+
 TEST(Plan, EachLookRunsOnlyIfAnObjectHasIt) {
   Scene scene = drawn_scene();
   EXPECT_FALSE(plan_of(scene).runs("flat"));
