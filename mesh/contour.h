@@ -15,7 +15,7 @@ namespace rinkaku::mesh {
 struct ContourOptions {
   /// Sine of the angle to the line of sight under which a face counts as seen from both sides, so that one which a
   /// rasteriser takes for front-facing is never left out of the front triangles.
-  double margin = 1e-3;
+  double margin = 1e-5;
 };
 
 /// Indices of one part of the mesh within a list.
