@@ -96,6 +96,15 @@ Verdict curvature(const Facts& f) {
   return {true, "the line's width follows the curvature of " + objects(n)};
 }
 
+Verdict line_targets(const Facts& f) {
+  if (!f.draws()) return {false, no_object};
+  const std::size_t n = f.count([](const ObjectScene& o) {
+    return o.outline && (needs_own_targets(o.outline->method) || o.outline->style.inner);
+  });
+  if (n == 0) return {false, "no line is found in pictures of its object"};
+  return {true, "lines of " + objects(n) + " need pictures of the object, in targets of their own"};
+}
+
 Verdict draw(const Facts& f) {
   if (!f.draws()) return {false, std::string(no_object) + ": no OpenGL context is made"};
   return {true, objects(f.scene.objects.size()) + " to draw"};
@@ -147,7 +156,8 @@ const std::vector<Kind>& kinds() {
       {"flat", flat, {"import"}},
       {"holdout", holdout, {"import"}},
       {"curvature", curvature, {"import"}},
-      {"outline", outline, {"import", "curvature"}},
+      {"line-targets", line_targets, {"import"}},
+      {"outline", outline, {"import", "curvature", "line-targets"}},
       {"draw", draw, {"decode", "track", "smooth", "toon", "flat", "holdout", "outline"}},
       {"lens", lens, {"draw"}},
       {"composite", composite, {"decode", "draw", "lens"}},

@@ -1,11 +1,17 @@
 #pragma once
 
+#include <optional>
+
 #include <glm/vec3.hpp>
 
 #include "mesh/mesh.h"
 #include "pipeline/frame/frame.h"
+#include "pipeline/scene/outline.h"
 
 namespace rinkaku::pipeline {
+
+/// An even line of two pixels.
+OutlineScene thin_line();
 
 struct PortraitOptions {
   int width_px = 1024;
@@ -14,7 +20,7 @@ struct PortraitOptions {
   double turn_deg = 35;                       ///< to the side of the front
   double raise_deg = 20;                      ///< above the ground
   double margin = 0.06;                       ///< of the picture, left free at each side
-  double line_width_px = 2;                   ///< of the outline; 0 for none
+  std::optional<OutlineScene> outline = thin_line();
   glm::vec3 background{0.88f, 0.88f, 0.87f};  ///< sRGB-encoded
 };
 

@@ -1,5 +1,6 @@
 #include "outline/strokes/features.h"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <tuple>

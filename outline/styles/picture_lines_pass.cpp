@@ -33,7 +33,7 @@ PictureLinesPass::PictureLinesPass(passes::DrawnObject& object, passes::ObjectPa
       body_(body),
       options_(options),
       surface_(options.method == Method::Laplacian ? SurfaceBuffer::Content::Picture : SurfaceBuffer::Content::Normals),
-      edges_({GL_RGBA32F}, gl::TextureTarget::Depth::None),
+      edges_(std::vector<GLenum>{GL_RGBA32F}, gl::TextureTarget::Depth::None),
       no_vertices_(make_empty_array()) {
   const std::string_view vertex[] = {embedded::whole_picture_vert};
   const std::string_view finding[] = {embedded::find_edges_frag}, drawing[] = {embedded::draw_edges_frag};

@@ -7,7 +7,10 @@
 
 namespace rinkaku::outline {
 
-SurfaceBuffer::SurfaceBuffer(Content content) : target_({GL_RGBA8}, gl::TextureTarget::Depth::Float) {
+SurfaceBuffer::SurfaceBuffer(Content content)
+    : fineness_(content == Content::Depth ? 1 : 2),
+      target_(content == Content::Depth ? std::vector<GLenum>{} : std::vector<GLenum>{GL_RGBA8},
+              gl::TextureTarget::Depth::Float) {
   if (content == Content::Picture) return;
   const std::string_view vertex[] = {embedded::surface_buffer_vert};
   const std::string_view fragment[] = {embedded::surface_buffer_frag};
@@ -18,10 +21,10 @@ SurfaceBuffer::SurfaceBuffer(Content content) : target_({GL_RGBA8}, gl::TextureT
 
 void SurfaceBuffer::draw(passes::DrawnObject& object, const passes::DrawCall& call, const passes::PixelRect& rect,
                          passes::ObjectPass* body) {
-  target_.begin(2 * rect.width_px, 2 * rect.height_px);
+  target_.begin(fineness_ * rect.width_px, fineness_ * rect.height_px);
   // The whole layer's viewport, moved so that the rectangle comes to lie in the target.
-  glViewport(2 * (call.rect.x_px - rect.x_px), 2 * (call.rect.y_px - rect.y_px), 2 * call.rect.width_px,
-             2 * call.rect.height_px);
+  glViewport(fineness_ * (call.rect.x_px - rect.x_px), fineness_ * (call.rect.y_px - rect.y_px),
+             fineness_ * call.rect.width_px, fineness_ * call.rect.height_px);
   if (!program_) {
     body->draw_surface(call);
     return;

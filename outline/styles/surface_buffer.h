@@ -6,17 +6,19 @@
 
 namespace rinkaku::outline {
 
-/// An object by itself, drawn into textures twice as fine as the picture, for what finds lines in pictures. Covers the
+/// An object by itself, drawn into textures, for what finds lines in pictures or asks what the object hides. Covers the
 /// object's own rectangle and no more.
 class SurfaceBuffer {
  public:
-  /// What the colour texture holds: the unit normal in the camera's frame, as 0.5 n + 0.5 and alpha 1; or the object as
-  /// a pass of its own draws it.
-  enum class Content { Normals, Picture };
+  enum class Content {
+    Normals,  ///< colour is the unit normal in the camera's frame, as 0.5 n + 0.5 and alpha 1; two texels a pixel
+    Picture,  ///< colour is the object as one of its passes draws it; two texels a pixel
+    Depth,    ///< no colour; one texel a pixel
+  };
   explicit SurfaceBuffer(Content content);
 
   /// Draws the object as the last look sees it, in the pixels of `rect`, which lies within the call's. `body` draws the
-  /// picture; not read for normals. To be called within a gl::ElsewhereScope.
+  /// picture, and is read for nothing else. To be called within a gl::ElsewhereScope.
   void draw(passes::DrawnObject& object, const passes::DrawCall& call, const passes::PixelRect& rect,
             passes::ObjectPass* body);
 
@@ -24,6 +26,7 @@ class SurfaceBuffer {
   GLuint depth() const { return target_.depth(); }  ///< near / Z; 0 where there is nothing
 
  private:
+  int fineness_;
   gl::TextureTarget target_;
   gl::Program program_;  // for normals only
   GLint clip_from_object_ = -1, camera_from_normal_ = -1;

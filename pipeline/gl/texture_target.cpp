@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <string>
+#include <utility>
 
 #include "pipeline/frame/error.h"
 #include "pipeline/gl/count.h"
@@ -32,8 +33,8 @@ int rounded(int px) { return (px + 127) / 128 * 128; }
 
 }  // namespace
 
-TextureTarget::TextureTarget(std::initializer_list<GLenum> colours, Depth depth)
-    : formats_(colours), has_depth_(depth == Depth::Float), framebuffer_(create_framebuffer()) {
+TextureTarget::TextureTarget(std::vector<GLenum> colours, Depth depth)
+    : formats_(std::move(colours)), has_depth_(depth == Depth::Float), framebuffer_(create_framebuffer()) {
   colours_.resize(formats_.size());
   std::vector<GLenum> attachments;
   for (std::size_t i = 0; i < formats_.size(); ++i) {

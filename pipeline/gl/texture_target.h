@@ -1,7 +1,6 @@
 #pragma once
 
 #include <array>
-#include <initializer_list>
 #include <vector>
 
 #include "pipeline/gl/handle.h"
@@ -13,7 +12,7 @@ namespace rinkaku::gl {
 class TextureTarget {
  public:
   enum class Depth { None, Float };
-  TextureTarget(std::initializer_list<GLenum> colours, Depth depth);
+  TextureTarget(std::vector<GLenum> colours, Depth depth);
 
   /// Binds the target, all of `width_px` x `height_px` cleared to 0, after storage was made for it. Sets the viewport
   /// to the same. Throws Error (Runtime) where it is larger than the driver takes.
