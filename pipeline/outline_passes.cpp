@@ -32,6 +32,11 @@ outline::LineLook look_of(const OutlineScene& line) {
           static_cast<float>(line.min_px), static_cast<float>(line.max_px), colour(line.colour)};
 }
 
+outline::LineLook thinner(outline::LineLook look) {
+  look.width_px /= 2, look.width_m /= 2, look.least_px /= 2, look.most_px /= 2;
+  return look;
+}
+
 double radius_m(const passes::DrawnObject& object, const mesh::Mesh& mesh) {
   const double scale = std::cbrt(std::abs(glm::determinant(glm::dmat3(object.shape().world_from_object()))));
   return mesh::bounding_sphere(mesh.positions).radius * scale;
@@ -47,6 +52,14 @@ std::unique_ptr<passes::ObjectPass> hull(passes::DrawnObject& object, const Outl
   options.colour = colour(line.colour);
   options.style = {factors, static_cast<float>(line.taper_px)};
   return std::make_unique<outline::HullPass>(object, options);
+}
+
+// The thinnest that a line of uneven width gets.
+OutlineScene least_of(OutlineScene line) {
+  const double part = line.method == M::Isophote ? 0.2 : std::max(0.25, 1 - line.style.wobble);
+  line.width_px *= part, line.min_px *= part, line.max_px *= part;
+  if (line.width_m) *line.width_m *= part;
+  return line;
 }
 
 std::unique_ptr<passes::ObjectPass> picture_lines(passes::StyledObject& styled, const mesh::Mesh& mesh,
@@ -70,11 +83,7 @@ std::unique_ptr<passes::ObjectPass> strokes(passes::DrawnObject& object, const m
   options.look = look_of(line);
   options.taper_px = static_cast<float>(line.taper_px);
   mesh::Texture brush;
-  if (line.method == M::HiddenLines) {
-    options.lines = outline::StrokeOptions::Lines::All;
-    options.hand = false;
-    options.hidden_opacity = static_cast<float>(style.hidden);
-  } else if (line.method == M::Isophote) {
+  if (line.method == M::Isophote) {
     options.outside = true;
     options.isophote = static_cast<float>(style.threshold);
     options.most_factor = static_cast<float>(style.most_factor);
@@ -95,20 +104,25 @@ std::unique_ptr<passes::ObjectPass> strokes(passes::DrawnObject& object, const m
   return std::make_unique<outline::StrokePass>(object, mesh, mesh::topology(mesh), options);
 }
 
+std::unique_ptr<passes::ObjectPass> hidden_lines(passes::DrawnObject& object, const mesh::Mesh& mesh,
+                                                 const OutlineScene& line, const InnerLinesScene& inner) {
+  outline::StrokeOptions options;
+  options.lines = outline::StrokeOptions::Lines::All;
+  options.features = {inner.creases, inner.crease_deg, inner.materials, inner.cuts};
+  options.only_hidden = true;
+  options.look = thinner(look_of(line));
+  options.opacity = static_cast<float>(line.style.hidden);
+  return std::make_unique<outline::StrokePass>(object, mesh, mesh::topology(mesh), options);
+}
+
 std::unique_ptr<passes::ObjectPass> inner_lines(passes::DrawnObject& object, const mesh::Mesh& mesh,
                                                 const OutlineScene& line, const InnerLinesScene& inner) {
   outline::StrokeOptions options;
   options.lines = outline::StrokeOptions::Lines::Inner;
   options.features = {inner.creases, inner.crease_deg, inner.materials, inner.cuts};
   options.hand = false;
-  options.look = look_of(line);
-  if (inner.width_px) {
-    options.look.width_px = static_cast<float>(*inner.width_px);
-    options.look.width_m = 0;
-  } else {
-    options.look.width_px /= 2, options.look.width_m /= 2;
-    options.look.least_px /= 2, options.look.most_px /= 2;
-  }
+  options.look = thinner(look_of(line));
+  if (inner.width_px) options.look.width_px = static_cast<float>(*inner.width_px), options.look.width_m = 0;
   // Lighter than the contour, as those who classify lines draw them.
   options.look.colour = inner.colour ? colour(*inner.colour) : glm::mix(colour(line.colour), glm::vec3(0.5f), 0.35f);
   return std::make_unique<outline::StrokePass>(object, mesh, mesh::topology(mesh), options);
@@ -119,12 +133,18 @@ std::unique_ptr<passes::ObjectPass> inner_lines(passes::DrawnObject& object, con
 void add_outline(passes::StyledObject& styled, const mesh::Mesh& mesh, const OutlineScene& line,
                  std::span<const float> factors) {
   passes::DrawnObject& object = *styled.object;
-  std::unique_ptr<passes::ObjectPass> over, under;
+  // What lies over the body comes before it in the list.
+  std::vector<std::unique_ptr<passes::ObjectPass>> over;
+  std::unique_ptr<passes::ObjectPass> under;
   switch (line.method) {
     case M::Uniform:
     case M::Curvature:
     case M::ZLines:
       under = hull(object, line, factors);
+      break;
+    case M::HiddenLines:
+      under = hull(object, line, factors);
+      if (line.style.inner) over.push_back(hidden_lines(object, mesh, line, *line.style.inner));
       break;
     case M::Hull:
       under = std::make_unique<outline::InvertedHullPass>(object, mesh, look_of(line));
@@ -134,24 +154,25 @@ void add_outline(passes::StyledObject& styled, const mesh::Mesh& mesh, const Out
       break;
     case M::DepthNormals:
     case M::Laplacian:
-      over = picture_lines(styled, mesh, line);
+      over.push_back(picture_lines(styled, mesh, line));
       break;
     case M::Facing:
-      over = std::make_unique<outline::FacingPass>(
-          object, outline::FacingOptions{static_cast<float>(line.style.threshold), colour(line.colour)});
+      over.push_back(std::make_unique<outline::FacingPass>(
+          object, outline::FacingOptions{static_cast<float>(line.style.threshold), colour(line.colour)}));
       break;
-    case M::HiddenLines:
     case M::Isophote:
     case M::Wobble:
+      // Where the contour zigzags over small triangles strokes may leave a gap; a thin even line closes it.
+      styled.passes.push_back(strokes(object, mesh, line));
+      under = hull(object, least_of(line), factors);
+      break;
     case M::Strokes:
-      over = strokes(object, mesh, line);
+      over.push_back(strokes(object, mesh, line));
       break;
   }
+  if (line.style.inner) over.push_back(inner_lines(object, mesh, line, *line.style.inner));
+  for (auto& pass : over) styled.passes.insert(styled.passes.begin(), std::move(pass));
   if (under) styled.passes.push_back(std::move(under));
-  if (line.style.inner && line.method != M::HiddenLines) {
-    styled.passes.insert(styled.passes.begin(), inner_lines(object, mesh, line, *line.style.inner));
-  }
-  if (over) styled.passes.insert(styled.passes.begin(), std::move(over));
 }
 
 std::vector<float> line_width_factors(const mesh::Mesh& mesh, const OutlineScene& line) {

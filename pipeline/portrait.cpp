@@ -15,6 +15,7 @@
 #include "pipeline/outline_passes.h"
 #include "pipeline/passes/composite/straight_alpha.h"
 #include "pipeline/passes/layer_renderer.h"
+#include "pipeline/passes/toon/band_borders.h"
 #include "pipeline/passes/toon/toon_pass.h"
 #include "pipeline/placement.h"
 
@@ -104,10 +105,11 @@ Frame portrait(const mesh::Mesh& mesh, const PortraitOptions& options) {
   passes::Layer layer;
   {
     passes::StyledObject styled;
-    styled.object = std::make_unique<passes::DrawnObject>(passes::ObjectShape(mesh, world_from_mesh));
     passes::ToonOptions toon;
     toon.shade_colour = {0.80f, 0.79f, 0.86f};
     toon.light = {-0.2f, -0.7f, 0.8f};
+    styled.object = std::make_unique<passes::DrawnObject>(
+        passes::ObjectShape(mesh, world_from_mesh, passes::band_borders(mesh, world_from_mesh, toon)));
     styled.passes.push_back(std::make_unique<passes::ToonPass>(*styled.object, mesh, toon));
     if (options.outline) add_outline(styled, mesh, *options.outline, line_width_factors(mesh, *options.outline));
     std::vector<passes::StyledObject> objects;

@@ -48,7 +48,8 @@ void write_label(const Frame& frame, const std::string& text, int x_px, int y_px
 void copy_cell(const Frame& from, const Frame& to, int x_px, int y_px) {
   for (int y = 0; y < from.format.height_px; ++y) {
     std::memcpy(to.planes[0].data + (y_px + y) * to.planes[0].stride_bytes + x_px * 4,
-                from.planes[0].data + y * from.planes[0].stride_bytes, static_cast<std::size_t>(from.format.width_px) * 4);
+                from.planes[0].data + y * from.planes[0].stride_bytes,
+                static_cast<std::size_t>(from.format.width_px) * 4);
   }
 }
 
@@ -71,8 +72,9 @@ std::vector<SheetCell> all_styles(double width_px) {
     OutlineScene outline;
     outline.method = named.method;
     outline.width_px = width_px;
+    if (named.method == LineMethod::Isophote) outline.style.threshold = kIsophoteThreshold;
     outline.taper_px = usual_taper_px(named.method);
-    if (named.method == LineMethod::ZLines) outline.style.inner.emplace();
+    if (brings_inner_lines(named.method)) outline.style.inner.emplace();
     cells.push_back({named.word, outline});
   }
   return cells;

@@ -59,9 +59,8 @@ int curvature(const CurvatureCall& call) {
   if (!call.picture.empty()) {
     pipeline::PortraitOptions options;
     options.up = imported.summary.up;
-    write_picture_file(
-        pipeline::portrait(outline::painted_with_curvature(imported.mesh, found, scale), options), call.picture,
-        call.force);
+    write_picture_file(pipeline::portrait(outline::painted_with_curvature(imported.mesh, found, scale), options),
+                       call.picture, call.force);
   }
   if (table) table->write(csv(topology, found));
 

@@ -154,9 +154,7 @@ struct CommandLine {
     sub->add_option("MESH", c.mesh, "Mesh file (glTF, GLB, VRM, OBJ, PLY, OFF, STL, FBX, ...)")->required();
     sub->add_option("-o,--output", c.output, "PNG to write")->required();
     sub->add_option("--styles", c.styles, "Only these, separated by commas: a method of a scene's outline each");
-    sub->add_option("--width-px", c.width_px, "The lines' width")
-        ->check(CLI::Range(0.1, 100.0))
-        ->capture_default_str();
+    sub->add_option("--width-px", c.width_px, "The lines' width")->check(CLI::Range(0.1, 100.0))->capture_default_str();
     sub->add_option("--cell-px", c.cell_px, "Size of one picture")->check(CLI::Range(64, 2048))->capture_default_str();
     sub->add_option("--columns", c.columns, "Pictures side by side")->check(CLI::Range(1, 16))->capture_default_str();
     sub->add_option("--turn-deg", c.turn_deg, "From how far to the side of the front it is seen")

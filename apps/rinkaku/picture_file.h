@@ -6,8 +6,8 @@
 
 namespace rinkaku::app {
 
-/// Throws Error (Input) if a PNG can't be written under this name: it is no PNG's name, exists without `force`, or is the
-/// input itself.
+/// Throws Error (Input) if a PNG can't be written under this name: it is no PNG's name, exists without `force`, or is
+/// the input itself.
 void check_picture_file(const std::string& picture, const std::string& input, bool force);
 
 /// Writes a frame of 8-bit RGBA as a PNG.

@@ -23,9 +23,11 @@ void Chains::walk(std::span<const Segment> segments, std::uint32_t start) {
   Chain chain;
   chain.first = static_cast<std::uint32_t>(vertices_.size());
   vertices_.push_back(segments[start].from);
+  steps_.push_back(start);
   for (std::uint32_t segment = start; segment != kNoSegment; segment = take_from(welded_[segments[segment].to])) {
     used_[segment] = 1;
     vertices_.push_back(segments[segment].to);
+    steps_.push_back(segment);
   }
   chain.count = static_cast<std::uint32_t>(vertices_.size()) - chain.first;
   chain.closed = chain.count > 3 && welded_[vertices_.back()] == welded_[vertices_[chain.first]];
@@ -35,6 +37,7 @@ void Chains::walk(std::span<const Segment> segments, std::uint32_t start) {
 void Chains::link(std::span<const Segment> segments) {
   chains_.clear();
   vertices_.clear();
+  steps_.clear();
   next_from_.assign(segments.size(), kNoSegment);
   used_.assign(segments.size(), 0);
   for (std::size_t i = segments.size(); i-- > 0;) {
@@ -52,7 +55,8 @@ void Chains::link(std::span<const Segment> segments) {
     }
   }
   for (const Segment& s : segments) {
-    for (const std::uint32_t vertex : {s.from, s.to}) first_from_[welded_[vertex]] = kNoSegment, ends_[welded_[vertex]] = 0;
+    for (const std::uint32_t vertex : {s.from, s.to})
+      first_from_[welded_[vertex]] = kNoSegment, ends_[welded_[vertex]] = 0;
   }
 }
 

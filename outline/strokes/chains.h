@@ -29,6 +29,8 @@ class Chains {
 
   std::span<const Chain> chains() const { return chains_; }
   std::span<const std::uint32_t> vertices() const { return vertices_; }
+  /// Per vertex: which segment leads to it; that of a chain's first one means nothing.
+  std::span<const std::uint32_t> steps() const { return steps_; }
 
  private:
   static constexpr std::uint32_t kNoSegment = 0xffffffffu;
@@ -41,7 +43,7 @@ class Chains {
   std::vector<std::int32_t> ends_;         // per point: segments that begin here, less those that end here
   std::vector<std::uint8_t> used_;         // per segment
   std::vector<Chain> chains_;
-  std::vector<std::uint32_t> vertices_;
+  std::vector<std::uint32_t> vertices_, steps_;
 };
 
 /// The same for segments without direction, once: turned so that they follow one another, and in that order. A chain

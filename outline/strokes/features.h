@@ -14,7 +14,7 @@ namespace rinkaku::outline {
 /// Which lines within a shape are drawn. (Borders of open surfaces belong to the contour.)
 struct FeatureOptions {
   bool creases = true;
-  double crease_deg = 40;  ///< two faces that enclose a larger angle than this make a crease
+  double crease_deg = 60;  ///< two faces that enclose a larger angle than this make a crease
   bool materials = true;   ///< where parts of different looks meet
   bool cuts = true;        ///< where pieces of the mesh cut through each other
 };

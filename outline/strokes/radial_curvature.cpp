@@ -43,14 +43,16 @@ RadialCurvature::RadialCurvature(const mesh::Topology& topology)
   }
   for (std::size_t p = 0; p < count; ++p) {
     // A little towards a ball's, where the neighbours don't say everything.
-    const double mean = left[p][0][0] + left[p][2][2] > 0 ? (right[p].x + right[p].z) / (left[p][0][0] + left[p][2][2]) : 0;
+    const double mean =
+        left[p][0][0] + left[p][2][2] > 0 ? (right[p].x + right[p].z) / (left[p][0][0] + left[p][2][2]) : 0;
     const double weight = 0.05;
     glm::dmat3 m = left[p];
     for (int k = 0; k < 3; ++k) m[k][k] += weight;
     const glm::dvec3 found = glm::inverse(m) * (right[p] + weight * glm::dvec3(mean, 0, mean));
     const auto [u, v] = tangents(glm::dvec3(normals_[p]));
-    forms_[p] = glm::mat3(found.x * glm::outerProduct(u, u) + found.y * (glm::outerProduct(u, v) + glm::outerProduct(v, u)) +
-                          found.z * glm::outerProduct(v, v));
+    forms_[p] =
+        glm::mat3(found.x * glm::outerProduct(u, u) + found.y * (glm::outerProduct(u, v) + glm::outerProduct(v, u)) +
+                  found.z * glm::outerProduct(v, v));
   }
   std::vector<glm::mat3> sums;
   std::vector<float> weights;

@@ -14,18 +14,18 @@ namespace rinkaku::outline {
 
 /// A vertex of a stroke's strip.
 struct StrokeVertex {
-  glm::vec3 position{0};    ///< on the shape, in the object's coordinates: what is seen there, the stroke is
-  glm::vec2 push_px{0};     ///< on the screen
-  glm::vec2 along_px{0};    ///< along the stroke, and across it from its middle
-  float half_px = 0;        ///< half the stroke's width here
-  float to_end_px = 0;      ///< to the line's nearer end
+  glm::vec3 position{0};  ///< on the shape, in the object's coordinates: what is seen there, the stroke is
+  glm::vec2 push_px{0};   ///< on the screen
+  glm::vec2 along_px{0};  ///< along the stroke, and across it from its middle
+  float half_px = 0;      ///< half the stroke's width here
+  float to_end_px = 0;    ///< to the line's nearer end
 };
 
 struct StrokeBand {
-  bool outside = false;  ///< the stroke lies to the right of the way; else in its middle
-  bool mirrored = false; ///< then to the left
-  float wobble = 0;      ///< how much of its width a line is thicker and thinner, and displaced
-  float wave = 1;        ///< size of wobbles, in the object's coordinates
+  bool outside = false;     ///< the stroke lies to the right of the way; else in its middle
+  bool mirrored = false;    ///< then to the left
+  float wobble = 0;         ///< how much of its width a line is thicker and thinner, and displaced
+  float wave = 1;           ///< size of wobbles, in the object's coordinates
   std::uint32_t draft = 0;  ///< another number wobbles otherwise
 };
 

@@ -25,8 +25,7 @@ StrokeSample between(const StrokeSample& a, const StrokeSample& b, float t) {
 
 void StrokePath::trace(std::span<const std::uint32_t> vertices, std::span<const float> widths_px,
                        const PositionView& positions, std::span<const glm::vec3> more_positions,
-                       std::size_t own_positions, const glm::mat4& to_pixels, bool closed,
-                       const PathOptions& options) {
+                       std::size_t own_positions, const glm::mat4& to_pixels, bool closed, const PathOptions& options) {
   samples_.clear();
   closed_ = closed;
   StrokeSample before;
@@ -63,8 +62,24 @@ void StrokePath::trace(std::span<const std::uint32_t> vertices, std::span<const 
     samples_.clear();
     return;
   }
+  limit_growth(options.most_growth);
   smooth(options);
   find_normals();
+  smooth_normals(options.smoothing);
+}
+
+void StrokePath::limit_growth(float most_growth) {
+  const auto limit = [&](StrokeSample& s, const StrokeSample& beside) {
+    s.width_px = std::min(s.width_px, beside.width_px + most_growth * std::abs(s.way_px - beside.way_px));
+  };
+  // Twice around what is closed.
+  for (int round = 0; round < (closed_ ? 2 : 1); ++round) {
+    for (std::size_t i = 1; i < samples_.size(); ++i) limit(samples_[i], samples_[i - 1]);
+    for (std::size_t i = samples_.size() - 1; i-- > 0;) limit(samples_[i], samples_[i + 1]);
+    if (!closed_) continue;
+    const float both = std::min(samples_.front().width_px, samples_.back().width_px);
+    samples_.front().width_px = samples_.back().width_px = both;
+  }
 }
 
 void StrokePath::smooth(const PathOptions& options) {
@@ -78,8 +93,8 @@ void StrokePath::smooth(const PathOptions& options) {
       const StrokeSample& left = before_[i == 0 ? n - 2 : i - 1];
       const StrokeSample& right = before_[i + 1 == n ? 1 : i + 1];
       const StrokeSample& here = before_[i];
-      const glm::vec2 mean = 0.5f * (here.px + here.shift_px) + 0.25f * (left.px + left.shift_px) +
-                             0.25f * (right.px + right.shift_px);
+      const glm::vec2 mean =
+          0.5f * (here.px + here.shift_px) + 0.25f * (left.px + left.shift_px) + 0.25f * (right.px + right.shift_px);
       glm::vec2 shift = mean - here.px;
       const float length = glm::length(shift);
       if (length > options.most_shift_px) shift *= options.most_shift_px / length;
@@ -99,12 +114,27 @@ void StrokePath::find_normals() {
   };
   for (std::size_t i = 0; i < n; ++i) {
     const bool first = i == 0, last = i + 1 == n;
-    const glm::vec2 in = first ? (closed_ ? unit(place(0) - place(n - 2)) : glm::vec2(0)) : unit(place(i) - place(i - 1));
+    const glm::vec2 in =
+        first ? (closed_ ? unit(place(0) - place(n - 2)) : glm::vec2(0)) : unit(place(i) - place(i - 1));
     const glm::vec2 out = last ? (closed_ ? unit(place(1) - place(0)) : glm::vec2(0)) : unit(place(i + 1) - place(i));
     const glm::vec2 along = unit(in + out);
     const glm::vec2 one = in == glm::vec2(0) ? out : in;
     const float cosine = std::max(glm::dot(along, one), least_cos);
     samples_[i].normal = glm::vec2(along.y, -along.x) / cosine;
+  }
+}
+
+void StrokePath::smooth_normals(int rounds) {
+  const std::size_t n = samples_.size();
+  if (n < 3) return;
+  for (int round = 0; round < rounds; ++round) {
+    before_ = samples_;
+    for (std::size_t i = 0; i < n; ++i) {
+      if (!closed_ && (i == 0 || i + 1 == n)) continue;
+      const glm::vec2& left = before_[i == 0 ? n - 2 : i - 1].normal;
+      const glm::vec2& right = before_[i + 1 == n ? 1 : i + 1].normal;
+      samples_[i].normal = 0.5f * before_[i].normal + 0.25f * (left + right);
+    }
   }
 }
 

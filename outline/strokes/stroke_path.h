@@ -17,26 +17,25 @@ namespace rinkaku::outline {
 struct PositionView {
   const std::byte* first = nullptr;
   std::size_t stride = sizeof(glm::vec3);
-  const glm::vec3& operator[](std::size_t i) const {
-    return *reinterpret_cast<const glm::vec3*>(first + i * stride);
-  }
+  const glm::vec3& operator[](std::size_t i) const { return *reinterpret_cast<const glm::vec3*>(first + i * stride); }
 };
 
 /// A place along a line as it is seen.
 struct StrokeSample {
-  glm::vec3 position{0};   ///< on the shape, in the object's coordinates
-  glm::vec2 px{0};         ///< where it is seen, pixels of the pinhole picture
-  glm::vec2 shift_px{0};   ///< what smoothing moves it by
-  glm::vec2 normal{0};     ///< to the left of the way on the screen (rows run downwards); at bends longer than 1
+  glm::vec3 position{0};  ///< on the shape, in the object's coordinates
+  glm::vec2 px{0};        ///< where it is seen, pixels of the pinhole picture
+  glm::vec2 shift_px{0};  ///< what smoothing moves it by
+  glm::vec2 normal{0};    ///< to the left of the way on the screen (rows run downwards); at bends longer than 1
   float depth_m = 0;
-  float way_px = 0;        ///< from the line's start
-  float width_px = 0;      ///< of the line here
+  float way_px = 0;    ///< from the line's start
+  float width_px = 0;  ///< of the line here
 };
 
 struct PathOptions {
-  float step_px = 4;   ///< samples lie no farther apart
-  int smoothing = 3;   ///< how often places and widths become the mean of themselves and their neighbours'
+  float step_px = 3;  ///< samples lie no farther apart
+  int smoothing = 4;  ///< how often places, widths and normals become the mean of themselves and their neighbours'
   float most_shift_px = 1.5f;
+  float most_growth = 1e6f;  ///< by how much the width may change a pixel of the way
 };
 
 /// A chain as it is seen: samples at even distances. No GL. Allocates nothing once warm.
@@ -55,7 +54,9 @@ class StrokePath {
 
  private:
   void smooth(const PathOptions& options);
+  void limit_growth(float most_growth);
   void find_normals();
+  void smooth_normals(int rounds);
 
   bool closed_ = false;
   std::vector<StrokeSample> samples_;

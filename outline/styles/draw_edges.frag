@@ -15,6 +15,8 @@ void main() {
   float drawn_px = max(line_px, 1.0);
 #ifdef OUTSIDE
   float radius_px = drawn_px;
+#elif defined(BOTH_SIDES)
+  float radius_px = max(0.5 * drawn_px - 0.3, 0.3);  // an edge was found on both its sides
 #else
   float radius_px = 0.5 * drawn_px;
 #endif
@@ -33,21 +35,21 @@ void main() {
   }
   if (coverage == 0.0) discard;
 #ifdef OUTSIDE
-  // Under the body and its soft edge, and nowhere before it: as far away as what is seen around.
-  float inside = 0.0, farthest = 1.0;
-  for (int i = 0; i < 16; ++i) {
-    float d = texelFetch(surface_depth, clamp(2 * here + ivec2(i & 3, i >> 2) - 1, ivec2(0), 2 * last_pixel + 1), 0).x;
-    if (d > 0.0) farthest = min(farthest, d);
-    if (i == 5 || i == 6 || i == 9 || i == 10) inside += d > 0.0 ? 0.25 : 0.0;
+  // Under the body and its soft edge, and nowhere before it.
+  float inside = 0.0;
+  for (int i = 0; i < 4; ++i) {
+    ivec2 t = clamp(2 * here + ivec2(i & 1, i >> 1), ivec2(0), 2 * last_pixel + 1);
+    inside += texelFetch(surface_depth, t, 0).x > 0.0 ? 0.25 : 0.0;
   }
-  if (inside > 0.5) {
-    if (least_px > 1.5) discard;
-    depth = farthest * 0.998;
-  } else {
-    depth *= 0.9998;
-  }
+  if (inside > 0.9 && least_px > 1.0) discard;
+  depth *= inside > 0.4 ? 0.5 : 0.9998;
 #else
-  depth *= 1.002;
+  // Before the surface on which half of it lies.
+  for (int i = 0; i < 4; ++i) {
+    ivec2 t = clamp(2 * here + ivec2(i & 1, i >> 1), ivec2(0), 2 * last_pixel + 1);
+    depth = max(depth, texelFetch(surface_depth, t, 0).x);
+  }
+  depth = min(depth * 1.002, 1.0);
 #endif
   gl_FragDepth = depth;
   fragment = vec4(colour, 1.0) * (coverage * min(line_px, 1.0));

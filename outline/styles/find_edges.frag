@@ -5,7 +5,7 @@ uniform sampler2D surface_depth;
 uniform ivec2 last_texel;
 uniform float depth_step_m;   // a larger step in depth is an edge
 uniform float cos_normal;     // normals farther apart are one
-uniform float contrast;       // of the second derivative of the picture
+uniform float contrast;       // a larger step between colours is one
 uniform float near_m;
 
 layout(location = 0) out vec4 edge;
@@ -33,8 +33,8 @@ void main() {
     int c = (at.y + 1) * 4 + at.x + 1;
     vec4 l = 8.0 * colours[c] - colours[c - 5] - colours[c - 4] - colours[c - 3] - colours[c - 1] - colours[c + 1] -
              colours[c + 3] - colours[c + 4] - colours[c + 5];
-    l = abs(l);
-    float strength = smoothstep(contrast, 1.5 * contrast, max(max(l.r, l.g), max(l.b, l.a)));
+    l = abs(l) / 3.0;  // along a straight edge that is the step
+    float strength = smoothstep(0.5 * contrast, 1.5 * contrast, max(max(l.r, l.g), max(l.b, l.a)));
     strongest = max(strongest, strength);
     sum += strength * vec3(0.5 * vec2(at) + 0.25, 1.0);
   }

@@ -12,9 +12,9 @@ namespace rinkaku::outline {
 /// which only the faces that face away are drawn (Raskar and Cohen, "Image precision silhouette edges", 1999).
 ///
 /// The move is as long as the line's width is at the vertex's depth, so the line is that wide where the surface turns
-/// away smoothly, and thinner at hard edges, where the normal is not at right angles to the line of sight. What HullPass
-/// draws is without that fault and costs only the contour; this is what others are measured by. The hull's edge fades
-/// over a pixel by the contour's strips.
+/// away smoothly, and thinner at hard edges, where the normal is not at right angles to the line of sight. What
+/// HullPass draws is without that fault and costs only the contour; this is what others are measured by. The hull's
+/// edge fades over a pixel by the contour's strips.
 class InvertedHullPass : public passes::ObjectPass {
  public:
   /// `object` must outlive the pass; `mesh` is the object's.

@@ -38,10 +38,11 @@ PictureLinesPass::PictureLinesPass(passes::DrawnObject& object, passes::ObjectPa
   const std::string_view vertex[] = {embedded::whole_picture_vert};
   const std::string_view finding[] = {embedded::find_edges_frag}, drawing[] = {embedded::draw_edges_frag};
   const std::string_view find_defines[] = {method_define(options.method)};
-  const std::string_view outside[] = {"OUTSIDE"};
+  const std::string_view outside[] = {"OUTSIDE"}, both_sides[] = {"BOTH_SIDES"};
   find_ = gl::Program("find edges", find_defines, vertex, finding);
   std::span<const std::string_view> draw_defines;
   if (options.method == Method::Silhouette) draw_defines = outside;
+  if (options.method == Method::Laplacian) draw_defines = both_sides;
   draw_ = gl::Program("draw edges", draw_defines, vertex, drawing);
   const GLuint find = find_.name(), draw = draw_.name();
   glProgramUniform1i(find, find_.uniform("surface"), 0);

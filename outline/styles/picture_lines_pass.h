@@ -23,15 +23,15 @@ struct PictureLinesOptions {
   } method = Method::DepthNormals;
   float depth_step_m = 0.01f;  ///< DepthNormals: the least step in depth
   float normal_deg = 25;       ///< DepthNormals: the least angle between normals half a pixel apart
-  float contrast = 0.15f;      ///< Laplacian: the least second derivative, colours counting from 0 to 1
+  float contrast = 0.08f;      ///< Laplacian: the least step between colours that count from 0 to 1
 };
 
 /// Lines that are found in pictures of the object: its depth and normals, what it covers, or its drawing.
 ///
 /// The object is drawn once more into textures of its own, as large as its rectangle and twice as fine, which are made
 /// with the first frame. Edges are placed to a quarter pixel; each pixel near one is covered by its distance. Except
-/// with Silhouette, lines lie half over the surface, and the pass comes before the body in an object's passes. Cost: the
-/// object's triangles again, and some (width + 2)^2 texel reads a pixel of its rectangle.
+/// with Silhouette, lines lie half over the surface, and the pass comes before the body in an object's passes. Cost:
+/// the object's triangles again, and some (width + 2)^2 texel reads a pixel of its rectangle.
 class PictureLinesPass : public passes::ObjectPass {
  public:
   /// `object` and `body` must outlive the pass; `body` draws the picture that Laplacian looks at.

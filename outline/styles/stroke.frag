@@ -48,7 +48,7 @@ void main() {
     float past_px = (t - 1.0) * (1.0 - gap) * strokes.x;
     // Put down quickly, lifted slowly.
     float profile = smoothstep(0.0, 0.12, t) * (1.0 - smoothstep(0.45, 1.0, t) * 0.85);
-    pressed = mix(1.0, profile, strokes.z);
+    pressed *= mix(1.0, profile, strokes.z);
     ink *= clamp(0.5 - past_px, 0.0, 1.0);
   }
   if (taper_px > 0.0) pressed *= clamp(to_end_px / taper_px, 0.0, 1.0);
@@ -57,7 +57,9 @@ void main() {
   float across = along.y - middle;
   float coverage = clamp(half_here + 0.5 - abs(across), 0.0, 1.0) * min(2.0 * half_here, 1.0);
 #ifdef BRUSH
-  ink *= texture(brush, vec2(along.x / brush_px, 0.5 + 0.5 * across / max(half_here, 0.5))).a;
+  // Of thin lines nobody sees the bristles.
+  float trace = texture(brush, vec2(along.x / brush_px, 0.5 + 0.5 * across / max(half_here, 0.5))).a;
+  ink *= mix(1.0, trace, smoothstep(0.5, 2.5, half_here));
 #endif
   if (strokes.w > 0.0) {
     // The less pressure, the more of the paper's hollows stay bare; stretched along the stroke, as the brush runs.
@@ -65,7 +67,7 @@ void main() {
     float bare = strokes.w * (1.15 - 0.6 * pressed);
     ink *= smoothstep(bare - 0.14, bare + 0.14, paper + 0.08);
   }
-  float seen = smoothstep(0.0, 1.0, shown);
+  float seen = outside ? 1.0 : smoothstep(0.0, 1.0, shown);
   float depth = middle_depth;
   if (dash_px > 0.0) {
     float phase = abs(fract(along.x / dash_px) - 0.5) * dash_px;
@@ -75,13 +77,14 @@ void main() {
   float own = texelFetch(own_depth, here, 0).x;
   if (dash_px > 0.0) {
     depth = max(depth, own);
-  } else if (own > depth) {
+  } else if (!outside && own > depth) {
     // Over the surface that the line belongs to, but under what lies before that.
     if (near_m / depth - near_m / own > thickness_m) discard;
     depth = own;
   }
   float strength = coverage * ink * seen * opacity;
   if (strength <= 0.0) discard;
-  gl_FragDepth = min(depth * 1.002, 1.0);
+  // Outside the contour a little farther than the body, whose soft edge lies over the line's; else a little before it.
+  gl_FragDepth = outside ? depth * 0.9998 : min(depth * 1.002, 1.0);
   fragment = vec4(colour, 1.0) * strength;
 }

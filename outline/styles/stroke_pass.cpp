@@ -77,14 +77,15 @@ StrokePass::StrokePass(passes::DrawnObject& object, const mesh::Mesh& mesh, cons
   glProgramUniform1f(name, program_.uniform("near_m"), static_cast<float>(passes::near_m));
   glProgramUniform1f(name, program_.uniform("thickness_m"), static_cast<float>(0.12 * radius_m_));
   glProgramUniform1f(name, program_.uniform("brush_px"), options.brush_px);
+  constexpr float dash_px = 8;
+  glProgramUniform1f(name, program_.uniform("dash_px"), options.only_hidden ? dash_px : 0);
+  glProgramUniform1f(name, program_.uniform("opacity"), options.opacity);
   glProgramUniform1i(name, program_.uniform("own_depth"), 0);
   glProgramUniform1i(name, program_.uniform("brush"), 1);
   clip_from_object_ = program_.uniform("clip_from_object");
   viewport_px_ = program_.uniform("viewport_px");
   origin_ = program_.uniform("origin");
   last_pixel_ = program_.uniform("last_pixel");
-  opacity_ = program_.uniform("opacity");
-  dash_px_ = program_.uniform("dash_px");
 }
 
 double StrokePass::reach_px(const passes::View& view) const {
@@ -95,61 +96,87 @@ double StrokePass::reach_px(const passes::View& view) const {
   return 2 * (options_.outside ? widest : 0.5 * widest) + 3;
 }
 
-void StrokePass::add_lines(const passes::DrawCall& call, bool contour) {
+PositionView StrokePass::positions() const {
+  return {
+      reinterpret_cast<const std::byte*>(object_.shape().vertices().data()) + offsetof(passes::ShapeVertex, position),
+      sizeof(passes::ShapeVertex)};
+}
+
+void StrokePass::add_contour(const passes::DrawCall& call) {
+  constexpr float longest_px = 24;
+  const passes::Look& look = object_.shape().last_look();
+  segments_.clear();
+  for (const auto& piece : look.contour_pieces) segments_.push_back({piece.from, piece.to});
+  const auto seen = static_cast<std::uint32_t>(segments_.size());
+  for (const auto& piece : look.hidden_contour_pieces) segments_.push_back({piece.from, piece.to});
+  contour_chains_.link(segments_);
+  runs_.part(contour_chains_, seen, positions(), look.to_pixels, longest_px);
+  for (const SeenRuns::Run& run : runs_.runs()) {
+    add_line(call, runs_.vertices().subspan(run.first, run.count), run.closed, true);
+  }
+}
+
+void StrokePass::add_inner(const passes::DrawCall& call) {
   const passes::ObjectShape& shape = object_.shape();
   const passes::Look& look = shape.last_look();
   segments_.clear();
-  if (contour) {
-    for (const passes::ContourStrips::Piece& piece : look.contour_pieces) segments_.push_back({piece.from, piece.to});
-  } else {
-    for (const Feature& feature : features_.list) {
-      const bool seen = look.front_faces[feature.face0] != 0 && look.front_faces[feature.face1] != 0;
-      if (seen || options_.hidden_opacity > 0 || shape.two_sided()) segments_.push_back(feature.segment);
-    }
+  for (const Feature& feature : features_.list) {
+    const bool seen = look.front_faces[feature.face0] != 0 && look.front_faces[feature.face1] != 0;
+    if (seen || options_.only_hidden || shape.two_sided()) segments_.push_back(feature.segment);
   }
-  Chains& chains = contour ? contour_chains_ : inner_chains_;
-  chains.link(segments_);
+  inner_chains_.link(segments_);
+  for (const Chain& chain : inner_chains_.chains()) {
+    add_line(call, inner_chains_.vertices().subspan(chain.first, chain.count), chain.closed, false);
+  }
+}
 
-  const PositionView positions{reinterpret_cast<const std::byte*>(shape.vertices().data()) +
-                                   offsetof(passes::ShapeVertex, position),
-                               sizeof(passes::ShapeVertex)};
-  const glm::vec3 eye(glm::inverse(shape.world_from_object()) *
-                      glm::dvec4(inverse(call.view.camera_from_world).translation_m, 1.0));
-  const auto px_per_unit = static_cast<float>(call.view.camera.fx_px * scale_of(shape.world_from_object()));
+void StrokePass::add_line(const passes::DrawCall& call, std::span<const std::uint32_t> vertices, bool closed,
+                          bool contour) {
+  const float shortest = contour ? 1.5f : 5;  // in widths: less is a blot
+  const passes::ObjectShape& shape = object_.shape();
+  const passes::Look& look = shape.last_look();
+  const double scale = scale_of(shape.world_from_object());
+  const PositionView own = positions();
   const float drop = 1 - std::sqrt(1 - options_.isophote * options_.isophote);
-  const StrokeBand band{options_.outside && contour, shape.mirrored(), options_.wobble,
-                        options_.wave_m / static_cast<float>(scale_of(shape.world_from_object())),
-                        options_.redraw_frames > 0 ? frame_ / static_cast<std::uint32_t>(options_.redraw_frames) : 0};
+  const auto px_per_unit = static_cast<float>(call.view.camera.fx_px * scale);
+  glm::vec3 eye(0);
+  if (bends_) {
+    eye = glm::vec3(glm::inverse(shape.world_from_object()) *
+                    glm::dvec4(inverse(call.view.camera_from_world).translation_m, 1.0));
+  }
+  widths_px_.clear();
+  for (const std::uint32_t v : vertices) {
+    const glm::vec3 at = v < own_positions_ ? own[v] : features_.more_positions[v - own_positions_];
+    const float depth = std::abs((look.to_pixels * glm::vec4(at, 1)).z);
+    float width = width_at_px(options_.look, call.view.camera.fx_px, depth);
+    if (bends_ && contour) {
+      // Where a surface is hollow that way, its contour ends: no wider there than at least.
+      const float bend = bends_->at(welded_[v], eye - at);
+      const float to_isophote_px = bend > 0 ? px_per_unit * drop / (bend * depth) : 0;
+      width = std::clamp(to_isophote_px, 0.2f * width, options_.most_factor * width);
+    }
+    widths_px_.push_back(width);
+  }
   PathOptions how;
   if (!options_.hand) how.smoothing = 0;
+  if (bends_) how.most_growth = 0.15f;
+  path_.trace(vertices, widths_px_, own, features_.more_positions, own_positions_, look.to_pixels, closed, how);
+  if (path_.samples().empty() || path_.length_px() < shortest * widths_px_.front()) return;
   const float period_px = options_.stroke_px > 0 ? options_.stroke_px : brush_.name() != 0 ? options_.brush_px : 0;
-  for (const Chain& chain : chains.chains()) {
-    const auto vertices = chains.vertices().subspan(chain.first, chain.count);
-    widths_px_.clear();
-    for (const std::uint32_t v : vertices) {
-      const glm::vec3 at = v < own_positions_ ? positions[v] : features_.more_positions[v - own_positions_];
-      const float depth = std::abs((look.to_pixels * glm::vec4(at, 1)).z);
-      float width = width_at_px(options_.look, call.view.camera.fx_px, depth);
-      if (bends_ && contour) {
-        const float bend = std::max(bends_->at(welded_[v], eye - at), 1e-12f);
-        width = std::clamp(px_per_unit * drop / (bend * depth), 0.2f * width, options_.most_factor * width);
-      }
-      widths_px_.push_back(width);
-    }
-    path_.trace(vertices, widths_px_, positions, features_.more_positions, own_positions_, look.to_pixels, chain.closed,
-                how);
-    if (path_.samples().empty()) continue;
-    const StrokeFit fit = memory_.fit(path_, period_px);
-    memory_.remember(path_, fit);
-    strips_.add(path_, fit, band);
-  }
+  const StrokeFit fit = memory_.fit(path_, period_px);
+  memory_.remember(path_, fit);
+  const std::uint32_t draft =
+      options_.redraw_frames > 0 ? frame_ / static_cast<std::uint32_t>(options_.redraw_frames) : 0;
+  strips_.add(path_, fit,
+              {options_.outside && contour, shape.mirrored(), options_.wobble,
+               options_.wave_m / static_cast<float>(scale), draft});
 }
 
 void StrokePass::collect(const passes::DrawCall& call) {
   strips_.clear();
   memory_.begin(object_.shape().last_look().to_pixels);
-  if (options_.lines != StrokeOptions::Lines::Inner) add_lines(call, true);
-  if (options_.lines != StrokeOptions::Lines::Contour) add_lines(call, false);
+  if (options_.lines != StrokeOptions::Lines::Inner) add_contour(call);
+  if (options_.lines != StrokeOptions::Lines::Contour) add_inner(call);
   ++frame_;
 }
 
@@ -175,14 +202,7 @@ void StrokePass::draw_edges(const passes::DrawCall& call) {
   glUniform2i(last_pixel_, rect.width_px - 1, rect.height_px - 1);
   glBindTextureUnit(0, depth_.depth());
   if (brush_.name() != 0) glBindTextureUnit(1, brush_.name());
-  const auto count = static_cast<GLsizei>(strips_.indices().size());
-  for (const bool hidden : {true, false}) {
-    if (hidden && options_.hidden_opacity <= 0) continue;
-    constexpr float dash_px = 8;
-    glUniform1f(dash_px_, hidden ? dash_px : 0);
-    glUniform1f(opacity_, hidden ? options_.hidden_opacity : options_.opacity);
-    glDrawElements(GL_TRIANGLES, count, GL_UNSIGNED_INT, nullptr);
-  }
+  glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(strips_.indices().size()), GL_UNSIGNED_INT, nullptr);
 }
 
 }  // namespace rinkaku::outline

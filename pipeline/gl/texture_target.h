@@ -32,8 +32,8 @@ class TextureTarget {
   int width_px_ = 0, height_px_ = 0;
 };
 
-/// While it lives, a pass may draw into targets of its own: blending is off and depth is written. At its end the target,
-/// viewport and state that were there before are there again.
+/// While it lives, a pass may draw into targets of its own: blending is off and depth is written. At its end the
+/// target, viewport and state that were there before are there again.
 class ElsewhereScope {
  public:
   ElsewhereScope();

@@ -100,8 +100,11 @@ bool follows_edges(LineMethod method) {
          method == M::Isophote || method == M::Wobble || method == M::Strokes;
 }
 
+bool brings_inner_lines(LineMethod method) { return method == M::ZLines || method == M::HiddenLines; }
+
 double usual_taper_px(LineMethod method) {
-  return method == M::Curvature || method == M::Isophote || method == M::Wobble || method == M::Strokes ? 15 : 0;
+  if (method == M::Wobble) return 6;
+  return method == M::Curvature || method == M::Isophote || method == M::Strokes ? 15 : 0;
 }
 
 bool needs_own_targets(LineMethod method) {
@@ -116,17 +119,18 @@ std::vector<std::string_view> line_style_keys() {
 }
 
 toml::Schema line_style_schema() {
-  return {{.path = "object.outline.inner",
-           .keys = {"creases", "crease_deg", "materials", "cuts", "width_px", "colour"}}};
+  return {
+      {.path = "object.outline.inner", .keys = {"creases", "crease_deg", "materials", "cuts", "width_px", "colour"}}};
 }
 
 LineStyleScene read_line_style(const Table& outline, LineMethod method) {
   refuse_keys_of_others(outline, method);
   LineStyleScene s;
+  if (method == M::Isophote) s.threshold = kIsophoteThreshold;
   s.threshold = outline.number("threshold", Limits::above(0, 0.95)).value_or(s.threshold);
   s.depth_step = outline.number("depth_step", Limits::above(0, 10)).value_or(s.depth_step);
   s.normal_deg = outline.number("normal_deg", Limits::above(0, 180)).value_or(s.normal_deg);
-  s.contrast = outline.number("contrast", Limits::above(0, 8)).value_or(s.contrast);
+  s.contrast = outline.number("contrast", Limits::above(0, 1)).value_or(s.contrast);
   s.most_factor = outline.number("max_factor", {1, 20}).value_or(s.most_factor);
   s.hidden = outline.number("hidden", {0, 1}).value_or(s.hidden);
   s.wobble = outline.number("wobble", {0, 2}).value_or(s.wobble);
@@ -140,7 +144,7 @@ LineStyleScene read_line_style(const Table& outline, LineMethod method) {
   s.dryness = outline.number("dryness", {0, 1}).value_or(s.dryness);
   if (const auto inner = outline.table_unless_flag("inner")) {
     s.inner = read_inner(*inner);
-  } else if (outline.has("inner") ? *outline.flag("inner") : method == M::ZLines) {
+  } else if (outline.has("inner") ? *outline.flag("inner") : brings_inner_lines(method)) {
     s.inner.emplace();
   }
   return s;

@@ -41,25 +41,30 @@ bool follows_edges(LineMethod method);
 /// Over which length lines thin out towards their ends if the scene doesn't say, in pixels.
 double usual_taper_px(LineMethod method);
 
+/// Whether it draws lines within the shape unless told not to.
+bool brings_inner_lines(LineMethod method);
+
 /// Whether the method needs pictures of the object, drawn into targets of its own.
 bool needs_own_targets(LineMethod method);
 
 /// inner of outline: lines within the shape.
 struct InnerLinesScene {
   bool creases = true;
-  double crease_deg = 40;
+  double crease_deg = 60;
   bool materials = true;
   bool cuts = true;
   std::optional<double> width_px;               ///< half of the outline's if not given
   std::optional<std::array<double, 3>> colour;  ///< sRGB; the outline's, lighter, if not given
 };
 
+inline constexpr double kIsophoteThreshold = 0.4;
+
 /// What one method or another needs of outline's keys.
 struct LineStyleScene {
-  double threshold = 0.3;       ///< Facing, Isophote: of the cosine to the line of sight
+  double threshold = 0.3;       ///< Facing, Isophote: of the cosine to the line of sight; see kIsophoteThreshold
   double depth_step = 0.03;     ///< DepthNormals: the least step in depth, in radii of the mesh
   double normal_deg = 25;       ///< DepthNormals: the least angle between normals
-  double contrast = 0.3;        ///< Laplacian: the least second derivative
+  double contrast = 0.08;       ///< Laplacian: the least step between colours
   double most_factor = 3;       ///< Isophote: the widest line, in widths
   double hidden = 0.5;          ///< HiddenLines: how strong hidden lines are
   double wobble = 0.5;          ///< Wobble: in widths
@@ -67,9 +72,9 @@ struct LineStyleScene {
   int redraw_frames = 0;        ///< Wobble: anew after so many frames
   std::filesystem::path brush;  ///< Strokes: an image; empty: a brush's bristles
   double brush_px = 160;        ///< Strokes: the length that one image takes
-  double stroke_px = 0;         ///< Strokes: the length of one stroke; 0: unbroken
-  double gap = 0.1;             ///< Strokes: the part of it that stays empty
-  double pressure = 0.7;        ///< Strokes: how much a stroke follows the pen's pressure
+  double stroke_px = 240;       ///< Strokes: the length of one stroke; 0: unbroken
+  double gap = 0;               ///< Strokes: the part of it that stays empty
+  double pressure = 0.6;        ///< Strokes: how much a stroke follows the pen's pressure
   double dryness = 0;           ///< Strokes: how much of the paper stays bare
   std::optional<InnerLinesScene> inner;
 };
