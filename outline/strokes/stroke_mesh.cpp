@@ -43,16 +43,18 @@ void StrokeMesh::add(const StrokePath& path, const StrokeFit& fit, const StrokeB
   const float length = path.length_px();
   for (const StrokeSample& s : path.samples()) {
     float width = std::max(s.width_px, 1.0f);
-    float aside = band.outside ? 0.5f * width - 0.25f : 0;
+    float sway = 0;
     if (band.wobble > 0) {
       const glm::vec3 place = s.position / band.wave;
       // Two sizes of waves: the larger one is the hand's, the smaller the pen's.
       const float hand = smooth_noise(place, 2 * band.draft), pen = smooth_noise(3.1f * place, 2 * band.draft + 1);
       const float thicker = std::clamp(1 + band.wobble * (1.2f * hand + 0.6f * pen), 0.15f, 3.0f);
       width *= thicker;
-      aside = band.outside ? 0.5f * width - 0.25f : band.wobble * width * 0.5f * pen;
+      sway = band.wobble * width * 0.5f * pen;
     }
-    const float half = 0.5f * width;
+    // Outside, from a pixel within the contour, where the body's soft edge lies over it.
+    const float half = 0.5f * (band.outside ? width + 1 : width);
+    const float aside = band.outside ? half - 1 : sway;
     StrokeVertex v;
     v.position = s.position;
     // Thinner than a pixel: fainter, which the shader takes from the sign.

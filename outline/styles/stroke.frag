@@ -1,6 +1,7 @@
 uniform vec3 colour;
 uniform float opacity;
 uniform float taper_px;       // at a line's ends
+uniform bool opaque;          // only what covers its pixel whole; else only the rest
 uniform bool outside;         // what makes the line thinner takes from its outer side only
 uniform vec4 strokes;         // their length in pixels (0: unbroken), the gap's part, pressure, dryness
 uniform float dash_px;        // above 0: only what is hidden, dashed
@@ -67,7 +68,7 @@ void main() {
     float bare = strokes.w * (1.15 - 0.6 * pressed);
     ink *= smoothstep(bare - 0.14, bare + 0.14, paper + 0.08);
   }
-  float seen = outside ? 1.0 : smoothstep(0.0, 1.0, shown);
+  float seen = smoothstep(0.0, 1.0, shown);
   float depth = middle_depth;
   if (dash_px > 0.0) {
     float phase = abs(fract(along.x / dash_px) - 0.5) * dash_px;
@@ -83,7 +84,7 @@ void main() {
     depth = own;
   }
   float strength = coverage * ink * seen * opacity;
-  if (strength <= 0.0) discard;
+  if (strength <= 0.0 || (outside && opaque != (strength >= 0.999))) discard;
   // Outside the contour a little farther than the body, whose soft edge lies over the line's; else a little before it.
   gl_FragDepth = outside ? depth * 0.9998 : min(depth * 1.002, 1.0);
   fragment = vec4(colour, 1.0) * strength;

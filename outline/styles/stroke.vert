@@ -18,11 +18,11 @@ out float middle_depth;
 // Whether the object itself is nowhere around as far away as the place.
 bool is_hidden(vec2 pixel, float depth) {
   ivec2 at = ivec2(floor(pixel)) - origin;
-  for (int y = -2; y <= 2; ++y) {
-    for (int x = -2; x <= 2; ++x) {
+  for (int y = -1; y <= 1; ++y) {
+    for (int x = -1; x <= 1; ++x) {
       ivec2 t = at + ivec2(x, y);
       if (any(lessThan(t, ivec2(0))) || any(greaterThan(t, last_pixel))) return false;
-      if (texelFetch(own_depth, t, 0).x <= depth * 1.001) return false;
+      if (texelFetch(own_depth, t, 0).x <= depth * 1.0005) return false;
     }
   }
   return true;

@@ -86,6 +86,7 @@ StrokePass::StrokePass(passes::DrawnObject& object, const mesh::Mesh& mesh, cons
   viewport_px_ = program_.uniform("viewport_px");
   origin_ = program_.uniform("origin");
   last_pixel_ = program_.uniform("last_pixel");
+  opaque_ = program_.uniform("opaque");
 }
 
 double StrokePass::reach_px(const passes::View& view) const {
@@ -202,7 +203,13 @@ void StrokePass::draw_edges(const passes::DrawCall& call) {
   glUniform2i(last_pixel_, rect.width_px - 1, rect.height_px - 1);
   glBindTextureUnit(0, depth_.depth());
   if (brush_.name() != 0) glBindTextureUnit(1, brush_.name());
-  glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(strips_.indices().size()), GL_UNSIGNED_INT, nullptr);
+  // Outside, what is opaque hides edges of the body behind it, which are drawn later.
+  for (const bool opaque : {true, false}) {
+    if (opaque && !options_.outside) continue;
+    glUniform1i(opaque_, opaque ? 1 : 0);
+    glDepthMask(opaque ? GL_TRUE : GL_FALSE);
+    glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(strips_.indices().size()), GL_UNSIGNED_INT, nullptr);
+  }
 }
 
 }  // namespace rinkaku::outline
