@@ -157,8 +157,8 @@ void add_outline(passes::StyledObject& styled, const mesh::Mesh& mesh, const Out
       over.push_back(picture_lines(styled, mesh, line));
       break;
     case M::Facing:
-      over.push_back(std::make_unique<outline::FacingPass>(
-          object, outline::FacingOptions{static_cast<float>(line.style.threshold), colour(line.colour)}));
+      under = std::make_unique<outline::FacingPass>(
+          object, outline::FacingOptions{static_cast<float>(line.style.threshold), colour(line.colour)});
       break;
     case M::Isophote:
     case M::Wobble:

@@ -105,7 +105,9 @@ StrokeFit StrokeMemory::fit(const StrokePath& path, float period_px) {
   votes_.clear();
   for (std::size_t i = 0; i < samples.size(); i += kEvery) {
     const Place* place = nearest(samples[i].px, way_at(path, i));
-    if (place != nullptr) votes_.push_back({samples[i].way_px, place->u_px, place->line});
+    if (place == nullptr) continue;
+    const float ahead_px = glm::dot(samples[i].px - place->px, place->way);
+    votes_.push_back({samples[i].way_px, place->u_px + place->scale * ahead_px, place->line});
   }
   StrokeFit fit;
   if (keep_most_voted()) fit = fit_votes();
@@ -123,6 +125,7 @@ void StrokeMemory::remember(const StrokePath& path, const StrokeFit& fit) {
     place.position = samples[i].position;
     place.ahead = samples[i + 1].position;
     place.u_px = fit.scale * samples[i].way_px + fit.offset_px;
+    place.scale = fit.scale;
     place.line = lines_;
     now_.push_back(place);
   }

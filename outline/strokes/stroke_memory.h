@@ -36,7 +36,7 @@ class StrokeMemory {
   struct Place {
     glm::vec3 position{0};
     glm::vec3 ahead{0};  // a little farther along the line
-    float u_px = 0;
+    float u_px = 0, scale = 1;
     std::uint32_t line = 0;
     // As this frame sees it.
     glm::vec2 px{0}, way{0};

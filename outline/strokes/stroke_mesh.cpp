@@ -57,8 +57,8 @@ void StrokeMesh::add(const StrokePath& path, const StrokeFit& fit, const StrokeB
     const float aside = band.outside ? half - 1 : sway;
     StrokeVertex v;
     v.position = s.position;
-    // Thinner than a pixel: fainter, which the shader takes from the sign.
-    v.half_px = s.width_px < 1 ? -0.5f * s.width_px : half;
+    v.half_px = half;
+    v.strength = std::min(s.width_px, 1.0f);
     v.to_end_px = path.closed() ? endless_px : std::min(s.way_px, length - s.way_px);
     for (const float side : {-1.0f, 1.0f}) {
       const float across = side * (half + margin_px);

@@ -18,7 +18,8 @@ struct FacingOptions {
 ///
 /// Its width follows from the surface: broad where it turns away gently, none at hard edges, and a flat face seen at a
 /// grazing angle is line as a whole; that is the method, and what other methods are there to avoid. The border of the
-/// line is smoothed over a pixel. To be drawn after the body's edges: it comes before the body in an object's passes.
+/// line is smoothed over a pixel. It comes after
+/// the body in an object's passes.
 class FacingPass : public passes::ObjectPass {
  public:
   /// `object` must outlive the pass.
@@ -26,10 +27,12 @@ class FacingPass : public passes::ObjectPass {
 
   const char* name() const override { return "facing"; }
   double reach_px(const passes::View&) const override { return 1; }
-  void draw_surface(const passes::DrawCall&) override {}
+  void draw_surface(const passes::DrawCall& call) override;
   void draw_edges(const passes::DrawCall& call) override;
 
  private:
+  void draw(const passes::DrawCall& call, bool feather);
+
   passes::DrawnObject& object_;
   gl::Program program_;
   passes::OffsetUniforms offset_;

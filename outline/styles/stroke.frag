@@ -18,6 +18,7 @@ uniform float brush_px;       // the length that one brush image takes
 in vec2 along;
 in float half_px;
 in float to_end_px;
+in float strength_here;
 in float shown;
 in float middle_depth;
 layout(location = 0) out vec4 fragment;
@@ -36,9 +37,8 @@ float grain(vec2 at) {
 }
 
 void main() {
-  float full = abs(half_px);
-  float ink = half_px < 0.0 ? 2.0 * full : 1.0;
-  full = max(full, 0.5);
+  float full = half_px;
+  float ink = strength_here;
   float pressed = 1.0;
   if (strokes.x > 0.0) {
     float at = along.x / strokes.x;

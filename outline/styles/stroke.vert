@@ -1,7 +1,7 @@
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec2 push_px;
 layout(location = 2) in vec2 along_px;
-layout(location = 3) in vec2 line;  // half the width in pixels (negative: thinner than a pixel), to the line's end
+layout(location = 3) in vec3 line;  // half the width and the way to the line's end in pixels, strength
 
 uniform mat4 clip_from_object;
 uniform vec2 viewport_px;
@@ -12,6 +12,7 @@ uniform ivec2 last_pixel;
 out vec2 along;
 out float half_px;
 out float to_end_px;
+out float strength_here;
 out float shown;              // 1 where nothing of the object hides the line
 out float middle_depth;
 
@@ -38,4 +39,5 @@ void main() {
   along = along_px;
   half_px = line.x;
   to_end_px = line.y;
+  strength_here = line.z;
 }

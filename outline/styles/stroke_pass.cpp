@@ -25,7 +25,7 @@ gl::VertexArrayHandle make_array() {
   } attributes[] = {{3, offsetof(StrokeVertex, position)},
                     {2, offsetof(StrokeVertex, push_px)},
                     {2, offsetof(StrokeVertex, along_px)},
-                    {2, offsetof(StrokeVertex, half_px)}};
+                    {3, offsetof(StrokeVertex, half_px)}};
   for (GLuint i = 0; i < std::size(attributes); ++i) {
     glEnableVertexArrayAttrib(name, i);
     glVertexArrayAttribFormat(name, i, attributes[i].size, GL_FLOAT, GL_FALSE,
@@ -75,7 +75,6 @@ StrokePass::StrokePass(passes::DrawnObject& object, const mesh::Mesh& mesh, cons
   glProgramUniform4f(name, program_.uniform("strokes"), options.stroke_px, options.gap, options.pressure,
                      options.dryness);
   glProgramUniform1f(name, program_.uniform("near_m"), static_cast<float>(passes::near_m));
-  glProgramUniform1f(name, program_.uniform("thickness_m"), static_cast<float>(0.12 * radius_m_));
   glProgramUniform1f(name, program_.uniform("brush_px"), options.brush_px);
   constexpr float dash_px = 8;
   glProgramUniform1f(name, program_.uniform("dash_px"), options.only_hidden ? dash_px : 0);
@@ -87,6 +86,7 @@ StrokePass::StrokePass(passes::DrawnObject& object, const mesh::Mesh& mesh, cons
   origin_ = program_.uniform("origin");
   last_pixel_ = program_.uniform("last_pixel");
   opaque_ = program_.uniform("opaque");
+  thickness_m_ = program_.uniform("thickness_m");
 }
 
 double StrokePass::reach_px(const passes::View& view) const {
@@ -188,7 +188,8 @@ void StrokePass::draw_depth(const passes::DrawCall& call, const passes::PixelRec
 
 void StrokePass::draw_edges(const passes::DrawCall& call) {
   collect(call);
-  const passes::PixelRect rect = intersection(object_.shape().last_look().bounds, call.rect);
+  const passes::Look& look = object_.shape().last_look();
+  const passes::PixelRect rect = intersection(look.bounds, call.rect);
   if (strips_.indices().empty() || rect.empty()) return;
   draw_depth(call, rect);
   vertex_buffer_.write(std::as_bytes(strips_.vertices()));
@@ -200,6 +201,10 @@ void StrokePass::draw_edges(const passes::DrawCall& call) {
   glUniformMatrix4fv(clip_from_object_, 1, GL_FALSE, glm::value_ptr(call.clip_from_object));
   glUniform2f(viewport_px_, call.viewport_px.x, call.viewport_px.y);
   glUniform2i(origin_, rect.x_px - call.rect.x_px, rect.y_px - call.rect.y_px);
+  // How far a ball as large as the object bulges before its contour at the line's inner rim, and a third more.
+  const double rim_px = 0.5 * widest_px(options_.look, look, call.view) + 1;
+  const double ball_px = std::max(call.view.camera.fx_px * radius_m_ / std::max(look.distance_m, passes::near_m), 1.0);
+  glUniform1f(thickness_m_, static_cast<float>(1.33 * radius_m_ * std::sqrt(2 * rim_px / ball_px)));
   glUniform2i(last_pixel_, rect.width_px - 1, rect.height_px - 1);
   glBindTextureUnit(0, depth_.depth());
   if (brush_.name() != 0) glBindTextureUnit(1, brush_.name());
