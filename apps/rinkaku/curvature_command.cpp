@@ -7,11 +7,11 @@
 #include "apps/rinkaku/commands.h"
 #include "apps/rinkaku/json_output.h"
 #include "apps/rinkaku/picture_file.h"
-#include "apps/rinkaku/whole_file.h"
 #include "mesh/import.h"
 #include "mesh/topology.h"
 #include "outline/curvature.h"
 #include "outline/curvature_colours.h"
+#include "pipeline/files/pending_file.h"
 #include "pipeline/frame/error.h"
 #include "pipeline/portrait.h"
 
@@ -42,13 +42,13 @@ int curvature(const CurvatureCall& call) {
   if (call.output.empty() && call.picture.empty()) {
     throw input_error("", "nothing is to be written", "give -o FILE.csv, --picture FILE.png, or both");
   }
-  std::optional<WholeFile> table;
+  std::optional<files::PendingFile> table;
   if (!call.output.empty()) {
     table.emplace(call.output, call.force);
     refuse_own_input(call.output, call.mesh);
   }
   if (!call.picture.empty()) {
-    if (table) WholeFile(call.picture, call.force).must_not_be(call.output);
+    if (table) files::PendingFile(call.picture, call.force).must_not_be(call.output);
     check_picture_file(call.picture, call.mesh, call.force);
   }
 

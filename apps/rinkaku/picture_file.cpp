@@ -2,7 +2,7 @@
 
 #include <filesystem>
 
-#include "apps/rinkaku/whole_file.h"
+#include "pipeline/files/pending_file.h"
 #include "pipeline/frame/error.h"
 #include "pipeline/sink/output_names.h"
 #include "pipeline/sink/sink.h"
@@ -17,7 +17,7 @@ void refuse_own_input(const std::string& output, const std::string& input) {
 }
 
 void check_picture_file(const std::string& picture, const std::string& input, bool force) {
-  const WholeFile checked(picture, force);
+  const files::PendingFile checked(picture, force);
   refuse_own_input(picture, input);
   if (std::filesystem::path(picture).extension() != ".png" || sink::is_sequence(picture)) {
     throw input_error(picture, "is no name of a PNG file", "give one that ends in .png");
