@@ -67,7 +67,7 @@ void fill(const Frame& frame, const glm::vec3& colour) {
 }  // namespace
 
 std::vector<SheetCell> all_styles(double width_px) {
-  std::vector<SheetCell> cells = {{"no line", std::nullopt}};
+  std::vector<SheetCell> cells = {{"none", std::nullopt}};
   for (const NamedMethod& named : line_methods()) {
     OutlineScene outline;
     outline.method = named.method;

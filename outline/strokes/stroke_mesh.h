@@ -17,9 +17,9 @@ struct StrokeVertex {
   glm::vec3 position{0};  ///< on the shape, in the object's coordinates: what is seen there, the stroke is
   glm::vec2 push_px{0};   ///< on the screen
   glm::vec2 along_px{0};  ///< along the stroke, and across it from its middle
-  float half_px = 0; ///< half the stroke's width here
+  float half_px = 0;      ///< half the stroke's width here
   float to_end_px = 0;    ///< to the line's nearer end
-  float strength = 1;  ///< below 1 where the stroke is thinner than a pixel, which is as thin as one is drawn
+  float strength = 1;     ///< below 1 where the stroke is thinner than a pixel, which is as thin as one is drawn
 };
 
 struct StrokeBand {

@@ -98,8 +98,7 @@ class StrokePass : public passes::ObjectPass {
   gl::Texture brush_;
   gl::StreamBuffer vertex_buffer_, index_buffer_;
   gl::VertexArrayHandle array_;
-  GLint clip_from_object_ = -1, viewport_px_ = -1, origin_ = -1, last_pixel_ = -1, opaque_ = -1,
-        thickness_m_ = -1;
+  GLint clip_from_object_ = -1, viewport_px_ = -1, origin_ = -1, last_pixel_ = -1, opaque_ = -1, thickness_m_ = -1;
 };
 
 }  // namespace rinkaku::outline

@@ -71,8 +71,7 @@ TEST(Chains, SecondFrameKnowsNothingOfTheFirstAndAllocatesNothing) {
 }
 
 TEST(Chains, UndirectedSegmentsAreTurnedToFollowOneAnother) {
-  const std::vector<Segment> ordered =
-      in_order(std::vector<Segment>{{2, 1}, {3, 4}, {0, 1}, {3, 2}}, counted(5));
+  const std::vector<Segment> ordered = in_order(std::vector<Segment>{{2, 1}, {3, 4}, {0, 1}, {3, 2}}, counted(5));
   ASSERT_EQ(ordered.size(), 4u);
   for (std::size_t i = 1; i < ordered.size(); ++i) EXPECT_EQ(ordered[i].from, ordered[i - 1].to);
 }
@@ -113,9 +112,7 @@ TEST(SeenRuns, LongHiddenStretchPartsALine) {
   EXPECT_EQ(Straight().runs(3, 6, 25), (std::vector<Numbers>{{0, 1, 2, 3}, {6, 7, 8, 9, 10}}));
 }
 
-TEST(SeenRuns, ShortHiddenStretchDoesNot) {
-  EXPECT_EQ(Straight().runs(3, 5, 25), (std::vector<Numbers>{counted(11)}));
-}
+TEST(SeenRuns, ShortHiddenStretchDoesNot) { EXPECT_EQ(Straight().runs(3, 5, 25), (std::vector<Numbers>{counted(11)})); }
 
 TEST(SeenRuns, HiddenEndIsLeftOut) { EXPECT_EQ(Straight().runs(8, 10, 100), (std::vector<Numbers>{counted(9)})); }
 

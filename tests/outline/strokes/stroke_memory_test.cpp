@@ -34,7 +34,8 @@ StrokePath traced(const std::vector<glm::vec3>& points, const glm::mat4& to_pixe
 std::vector<glm::vec3> ring(float radius, int start, int count = 120) {
   std::vector<glm::vec3> points;
   for (int i = 0; i <= count; ++i) {
-    const float turn = 2 * std::numbers::pi_v<float> * static_cast<float>((i + start) % count) / static_cast<float>(count);
+    const float turn =
+        2 * std::numbers::pi_v<float> * static_cast<float>((i + start) % count) / static_cast<float>(count);
     points.emplace_back(radius * std::cos(turn), radius * std::sin(turn), 1);
   }
   return points;
@@ -146,7 +147,8 @@ TEST(StrokeMesh, BandLiesWhereItShould) {
     StrokeMesh strips;
     strips.add(path, {}, {outside, false, 0, 1, 0});
     float low = 1e9f, high = -1e9f;
-    for (const StrokeVertex& v : strips.vertices()) low = std::min(low, v.push_px.y), high = std::max(high, v.push_px.y);
+    for (const StrokeVertex& v : strips.vertices())
+      low = std::min(low, v.push_px.y), high = std::max(high, v.push_px.y);
     // Width 3, and 0.75 px to either side for the smooth edge. To the right of the way is down the screen.
     EXPECT_NEAR(high, outside ? 3 + 0.75 : 1.5 + 0.75, 1e-4);
     EXPECT_NEAR(low, outside ? -1 - 0.75 : -1.5 - 0.75, 1e-4);
