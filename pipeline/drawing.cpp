@@ -10,12 +10,10 @@
 
 #include <glm/vec3.hpp>
 
-#include "outline/curvature.h"
-#include "outline/line_width.h"
-#include "outline/pass/hull_pass.h"
 #include "pipeline/fluff.h"
 #include "pipeline/gl/context.h"
 #include "pipeline/in_parallel.h"
+#include "pipeline/outline_passes.h"
 #include "pipeline/passes/holdout/holdout_pass.h"
 #include "pipeline/passes/layer_renderer.h"
 #include "pipeline/passes/toon/band_borders.h"
@@ -27,45 +25,12 @@ namespace {
 
 glm::vec3 colour(const std::array<double, 3>& c) { return glm::vec3(c[0], c[1], c[2]); }
 
-using PassList = std::vector<std::unique_ptr<passes::ObjectPass>>;
-
 passes::ToonOptions toon_options(const ObjectScene& object, const LightScene& light) {
   passes::ToonOptions options;
   options.bands = object.toon ? object.toon->bands : 0;
   if (object.toon) options.shade_colour = colour(object.toon->shade_colour);
   options.light = glm::vec3(light.direction);
   return options;
-}
-
-// Per welded point; empty where the width doesn't follow the shape.
-std::vector<float> line_factors(const ObjectScene& object, const mesh::Mesh& mesh) {
-  if (!object.outline || object.outline->method != OutlineScene::Method::Curvature) return {};
-  const OutlineScene& line = *object.outline;
-  outline::WidthOptions options;
-  options.kind = line.curvature;
-  options.sign = line.sign;
-  options.exaggeration = static_cast<float>(line.exaggeration);
-  options.saturation = static_cast<float>(line.saturation);
-  options.curve = static_cast<float>(line.curve);
-  options.least = static_cast<float>(line.min_factor);
-  options.smoothing = line.smoothing;
-  const mesh::Topology topology = mesh::topology(mesh);
-  const outline::Curvature found = outline::curvature(topology);
-  return outline::line_width_factors(topology, found, outline::k95(found), options);
-}
-
-void add_outline(PassList& list, passes::DrawnObject& drawn, const ObjectScene& object,
-                 std::span<const float> factors) {
-  if (!object.outline) return;
-  const OutlineScene& line = *object.outline;
-  outline::HullOptions options;
-  options.width_px = static_cast<float>(line.width_px);
-  options.width_m = static_cast<float>(line.width_m.value_or(0));
-  options.least_px = static_cast<float>(line.min_px);
-  options.most_px = static_cast<float>(line.max_px);
-  options.colour = colour(line.colour);
-  options.style = {factors, static_cast<float>(line.taper_px)};
-  list.push_back(std::make_unique<outline::HullPass>(drawn, options));
 }
 
 // What of an object needs no GL.
@@ -99,7 +64,8 @@ PreparedObject prepare(mesh::Imported imported, const ObjectScene& object, const
   const glm::dmat4 place = world_from_object(object, mesh::bounding_box(mesh.positions), imported.summary.up);
   const passes::ToonOptions toon = toon_options(object, light);
   passes::ObjectShape shape(mesh, place, passes::band_borders(mesh, place, toon));
-  std::vector<float> factors = line_factors(object, mesh);
+  std::vector<float> factors;
+  if (object.outline) factors = line_width_factors(mesh, *object.outline);
   std::optional<Fluff> fluff;
   if (object.fluffy) fluff = prepare_fluff(object, mesh, place);
   if (object.fluffy && object.outline) thin_line_under_fluff(factors, object, mesh);
@@ -180,7 +146,7 @@ std::vector<passes::StyledObject> style(const Scene& scene, std::vector<std::opt
     } else {
       one.passes.push_back(std::make_unique<passes::ToonPass>(*one.object, prepared.imported.mesh, prepared.toon));
     }
-    add_outline(one.passes, *one.object, object, prepared.line_factors);
+    if (object.outline) add_outline(one, prepared.imported.mesh, *object.outline, prepared.line_factors);
     if (fluff) one.passes.push_back(std::move(fluff));
     styled.push_back(std::move(one));
   }

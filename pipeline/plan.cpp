@@ -120,6 +120,15 @@ Verdict fluffy(const Facts& f) {
   return {true, objects(n) + " with fluff about the contour"};
 }
 
+Verdict line_targets(const Facts& f) {
+  if (!f.draws()) return {false, no_object};
+  const std::size_t n = f.count([](const ObjectScene& o) {
+    return o.outline && (needs_own_targets(o.outline->method) || o.outline->style.inner);
+  });
+  if (n == 0) return {false, "no line is found in pictures of its object"};
+  return {true, "lines of " + objects(n) + " need pictures of the object, in targets of their own"};
+}
+
 Verdict draw(const Facts& f) {
   if (!f.draws()) return {false, std::string(no_object) + ": no OpenGL context is made"};
   return {true, objects(f.scene.objects.size()) + " to draw"};
@@ -185,7 +194,8 @@ const std::vector<Kind>& kinds() {
       {"holdout", holdout, {"import"}},
       {"regions", regions, {"import"}},
       {"curvature", curvature, {"import"}},
-      {"outline", outline, {"import", "curvature"}},
+      {"line-targets", line_targets, {"import"}},
+      {"outline", outline, {"import", "curvature", "line-targets"}},
       {"fluffy", fluffy, {"import"}},
       {"draw", draw, {"decode", "track", "smooth", "toon", "flat", "holdout", "regions", "outline", "fluffy"}},
       {"lens", lens, {"draw"}},

@@ -115,6 +115,10 @@ const Look& ObjectShape::look(const View& view, const PixelRect& picture) {
   }
   if (known_.cover) take_cover(eye);
   strips_->collect(contour, vertices_);
+  look_.to_pixels = to_pixels;
+  look_.contour_pieces = strips_->pieces();
+  look_.hidden_contour_pieces = strips_->hidden_pieces();
+  look_.front_faces = contour.front;
   look_.strip_vertices = strips_->vertices();
   look_.strip_indices = strips_->indices();
   look_.strip_runs = strips_->runs();

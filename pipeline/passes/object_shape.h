@@ -51,7 +51,11 @@ struct Look {
   std::span<const Run> strip_runs;
   std::span<const LineVertex> line_vertices;  ///< see LineStrips; none if no pass asked for lines
   std::span<const std::uint32_t> line_indices;
-  float line_push = 1;                            ///< the farthest that a line reaches, in widths
+  std::span<const ContourStrips::Piece> contour_pieces;         ///< the contour's edges, as vertices of the mesh
+  std::span<const ContourStrips::Piece> hidden_contour_pieces;  ///< where it is never seen, see ContourStrips
+  std::span<const std::uint8_t> front_faces;                    ///< per triangle of the mesh: 1 if it faces the eye
+  glm::mat4 to_pixels{1};  ///< takes a position to (x Z, y Z, Z, Z), x and y in pixels of the pinhole picture
+  float line_push = 1;     ///< the farthest that a line reaches, in widths
   std::span<const std::uint32_t> border_indices;  ///< of border_vertices(), see BorderStrips
   std::span<const Run> border_runs;
   std::span<const BorderVertex> intersection_vertices;  ///< see IntersectionStrips

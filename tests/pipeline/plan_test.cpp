@@ -108,6 +108,19 @@ TEST(Plan, CurvatureIsComputedOnlyForLinesThatFollowIt) {
   EXPECT_TRUE(plan_of(scene).runs("curvature"));
 }
 
+TEST(Plan, TargetsForLinesAreMadeOnlyForStylesThatNeedThem) {
+  Scene scene = drawn_scene();
+  EXPECT_FALSE(plan_of(scene).runs("line-targets"));
+  OutlineScene& line = scene.objects[0].outline.emplace();
+  for (const NamedMethod& named : line_methods()) {
+    line.method = named.method;
+    EXPECT_EQ(plan_of(scene).runs("line-targets"), needs_own_targets(named.method)) << named.word;
+  }
+  line.method = OutlineScene::Method::Uniform;
+  line.style.inner.emplace();
+  EXPECT_TRUE(plan_of(scene).runs("line-targets"));
+}
+
 TEST(Plan, HoldoutsAreCutOutAndNotShaded) {
   Scene scene = drawn_scene();
   EXPECT_FALSE(plan_of(scene).runs("holdout"));
