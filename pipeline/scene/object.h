@@ -9,6 +9,7 @@
 
 #include "pipeline/scene/fluffy.h"
 #include "pipeline/scene/outline.h"
+#include "pipeline/scene/regions.h"
 #include "pipeline/scene/toon.h"
 #include "pipeline/toml/table.h"
 
@@ -33,6 +34,7 @@ struct ObjectScene {
   std::optional<FluffyScene> fluffy;
   /// The model of a filmed thing: not drawn, but CG behind it is hidden.
   bool holdout = false;
+  std::optional<RegionsScene> regions;
 };
 
 /// With the schemas of the object's own tables.
