@@ -1,5 +1,5 @@
-// Frames a second of every way of drawing lines, as parts of the uniform hull's (Raskar and Cohen), for a bumpy ring of as
-// many vertices as the rows of tables 3.2 and 4.2 of Matsuo's thesis have, at 1024x768. The ways take turns frame by
+// Frames a second of every way of drawing lines, as parts of the uniform hull's (Raskar and Cohen), for a bumpy ring of
+// as many vertices as the rows of tables 3.2 and 4.2 of Matsuo's thesis have, at 1024x768. The ways take turns frame by
 // frame, so that what else the machine does falls on all of them alike; medians count.
 //
 //   rinkaku-bench-outlines [FRAMES]
@@ -79,8 +79,8 @@ std::unique_ptr<passes::LayerRenderer> renderer_of(const mesh::Mesh& mesh,
   const passes::ToonOptions toon;
   passes::StyledObject styled;
   const glm::dmat4 place(1);
-  styled.object = std::make_unique<passes::DrawnObject>(
-      passes::ObjectShape(mesh, place, passes::band_borders(mesh, place, toon)));
+  styled.object =
+      std::make_unique<passes::DrawnObject>(passes::ObjectShape(mesh, place, passes::band_borders(mesh, place, toon)));
   styled.passes.push_back(std::make_unique<passes::ToonPass>(*styled.object, mesh, toon));
   if (line) pipeline::add_outline(styled, mesh, *line, pipeline::line_width_factors(mesh, *line));
   std::vector<passes::StyledObject> objects;

@@ -99,7 +99,8 @@ Verdict curvature(const Facts& f) {
 Verdict line_targets(const Facts& f) {
   if (!f.draws()) return {false, no_object};
   const std::size_t n = f.count([](const ObjectScene& o) {
-    return o.outline && (needs_own_targets(o.outline->method) || o.outline->style.inner || !o.outline->style.drawn.empty());
+    return o.outline &&
+           (needs_own_targets(o.outline->method) || o.outline->style.inner || !o.outline->style.drawn.empty());
   });
   if (n == 0) return {false, "no line is found in pictures of its object"};
   return {true, "lines of " + objects(n) + " need pictures of the object, in targets of their own"};

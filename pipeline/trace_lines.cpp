@@ -53,8 +53,9 @@ TracedLines trace_lines(const Prepared& prepared, const std::vector<std::vector<
   const RigidTransform camera_from_world = pose_at(prepared, options.frame);
   const mesh::Imported imported = load_mesh(object);
   const mesh::Mesh& mesh = imported.mesh;
-  const glm::dmat4 object_from_camera = glm::inverse(
-      to_matrix(camera_from_world) * world_from_object(object, mesh::bounding_box(mesh.positions), imported.summary.up));
+  const glm::dmat4 object_from_camera =
+      glm::inverse(to_matrix(camera_from_world) *
+                   world_from_object(object, mesh::bounding_box(mesh.positions), imported.summary.up));
   const double largest = max_undistorted_radius(camera);
   const auto ray = [&](const glm::dvec2& px) -> std::optional<glm::dvec3> {
     const auto seen = undistort(camera, to_normalised(camera, px), largest);

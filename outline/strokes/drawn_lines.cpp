@@ -9,8 +9,8 @@
 namespace rinkaku::outline {
 namespace {
 
-// Where a line's next place lies so many times farther from the last than a step at right angles to the line of sight is
-// long, the line has jumped to another part.
+// Where a line's next place lies so many times farther from the last than a step at right angles to the line of sight
+// is long, the line has jumped to another part.
 constexpr double kJump = 12;
 
 struct Follower {

@@ -27,9 +27,9 @@ struct StrokeOptions {
   LineLook look{};
   enum class Lines { Contour, Inner, All, Drawn } lines = Lines::Contour;
   std::vector<DrawnLine> drawn{};  ///< for Drawn: the lines
-  FeatureOptions features{};  ///< which inner lines
-  bool outside = false;       ///< lines lie outside the contour, behind the body; else half over it
-  bool hand = true;           ///< corners are rounded as a hand would; else lines are as exact as the mesh
+  FeatureOptions features{};       ///< which inner lines
+  bool outside = false;            ///< lines lie outside the contour, behind the body; else half over it
+  bool hand = true;                ///< corners are rounded as a hand would; else lines are as exact as the mesh
   float opacity = 1;
   float taper_px = 0;  ///< at lines' ends
 
