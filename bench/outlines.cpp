@@ -2,7 +2,7 @@
 // as many vertices as the rows of tables 3.2 and 4.2 of Matsuo's thesis have, at 1024x768. The ways take turns frame by
 // frame, so that what else the machine does falls on all of them alike; medians count.
 //
-//   rinkaku-bench-outlines [FRAMES]
+//   rinkaku-bench-outlines [FRAMES [MOST_VERTICES]]
 
 #include <algorithm>
 #include <chrono>
@@ -153,12 +153,14 @@ void measure(std::size_t vertices, int frames, bool header) {
 
 int main(int argc, char** argv) {
   const int frames = argc > 1 ? std::max(std::atoi(argv[1]), 1) : 60;
+  const std::size_t most = argc > 2 ? static_cast<std::size_t>(std::max(std::atoi(argv[2]), 0)) : 100000;
   try {
     const auto context = gl::Context::headless();
     std::printf("%s, %dx%d, medians of %d frames; frames a second as parts of the uniform hull's\n\n",
                 context->renderer().c_str(), kWidth_px, kHeight_px, frames);
     bool header = true;
     for (const std::size_t vertices : {503, 1170, 2082, 3242, 485, 4250, 15859, 28741, 63576}) {
+      if (vertices > most) continue;
       measure(vertices, frames, header);
       header = false;
     }

@@ -227,12 +227,14 @@ void StrokePass::draw_edges(const passes::DrawCall& call) {
   glUseProgram(program_.name());
   glUniformMatrix4fv(clip_from_object_, 1, GL_FALSE, glm::value_ptr(call.clip_from_object));
   glUniform2f(viewport_px_, call.viewport_px.x, call.viewport_px.y);
-  glUniform2i(origin_, rect.x_px - call.rect.x_px, rect.y_px - call.rect.y_px);
+  glUniform2i(origin_, rect.x_px - call.rect.x_px - SurfaceBuffer::kMargin,
+              rect.y_px - call.rect.y_px - SurfaceBuffer::kMargin);
   // How far a ball as large as the object bulges before its contour at the line's inner rim, and a third more.
   const double rim_px = 0.5 * widest_px(options_.look, look, call.view) + 1;
   const double ball_px = std::max(call.view.camera.fx_px * radius_m_ / std::max(look.distance_m, passes::near_m), 1.0);
   glUniform1f(thickness_m_, static_cast<float>(1.33 * radius_m_ * std::sqrt(2 * rim_px / ball_px)));
-  glUniform2i(last_pixel_, rect.width_px - 1, rect.height_px - 1);
+  glUniform2i(last_pixel_, rect.width_px + 2 * SurfaceBuffer::kMargin - 1,
+              rect.height_px + 2 * SurfaceBuffer::kMargin - 1);
   glBindTextureUnit(0, depth_.depth());
   if (brush_.name() != 0) glBindTextureUnit(1, brush_.name());
   // Outside, what is opaque hides edges of the body behind it, which are drawn later.
