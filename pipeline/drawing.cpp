@@ -10,6 +10,7 @@
 
 #include <glm/vec3.hpp>
 
+#include "pipeline/fluff.h"
 #include "pipeline/gl/context.h"
 #include "pipeline/in_parallel.h"
 #include "pipeline/outline_passes.h"
@@ -38,6 +39,7 @@ struct PreparedObject {
   passes::ToonOptions toon;
   passes::ObjectShape shape;
   std::vector<float> line_factors;
+  std::optional<Fluff> fluff;
 };
 
 mesh::Imported import_mesh(const ObjectScene& object) {
@@ -64,11 +66,29 @@ PreparedObject prepare(mesh::Imported imported, const ObjectScene& object, const
   passes::ObjectShape shape(mesh, place, passes::band_borders(mesh, place, toon));
   std::vector<float> factors;
   if (object.outline) factors = line_width_factors(mesh, *object.outline);
-  return {std::move(imported), toon, std::move(shape), std::move(factors)};
+  std::optional<Fluff> fluff;
+  if (object.fluffy) fluff = prepare_fluff(object, mesh, place);
+  if (object.fluffy && object.outline) thin_line_under_fluff(factors, object, mesh);
+  return {std::move(imported), toon, std::move(shape), std::move(factors), std::move(fluff)};
+}
+
+// One object after the other, as baking takes all cores.
+void use_regions(const Scene& scene, std::span<std::optional<PreparedObject>> all, const RegionOptions& options) {
+  std::vector<PlacedBox> boxes;
+  for (const auto& one : all) {
+    boxes.push_back({mesh::bounding_box(one->imported.mesh.positions), one->shape.world_from_object()});
+  }
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const ObjectScene& object = scene.objects[i];
+    if (region_use(object) == RegionUse::None) continue;
+    bool apart = true;
+    for (std::size_t k = 0; k < boxes.size(); ++k) apart = apart && (k == i || are_apart(boxes[i], boxes[k]));
+    all[i]->shape.use_regions(region_knowledge(object, all[i]->imported.mesh, apart, options));
+  }
 }
 
 // Objects of one file share its import, which takes a process.
-std::vector<std::optional<PreparedObject>> prepare_all(const Scene& scene) {
+std::vector<std::optional<PreparedObject>> prepare_all(const Scene& scene, const RegionOptions& regions) {
   std::map<std::pair<std::filesystem::path, double>, std::size_t> known;
   std::vector<const ObjectScene*> distinct;
   std::vector<std::size_t> import_of;
@@ -83,6 +103,7 @@ std::vector<std::optional<PreparedObject>> prepare_all(const Scene& scene) {
   in_parallel(prepared.size(), [&](std::size_t i) {
     prepared[i].emplace(prepare(imported[import_of[i]], scene.objects[i], scene.light));
   });
+  use_regions(scene, prepared, regions);
   return prepared;
 }
 
@@ -101,31 +122,67 @@ Drawing::~Drawing() {
   renderer.reset();
 }
 
-Drawing make_drawing(const Scene& scene, const passes::PixelRect& picture) {
-  auto preparing = std::async(std::launch::async, prepare_all, std::cref(scene));
-  Drawing drawing;
-  drawing.context = gl::Context::headless();
-  std::vector<std::optional<PreparedObject>> all = preparing.get();
+namespace {
+
+// The objects on the GPU with their passes; what their import had to say goes to `notices`.
+std::vector<passes::StyledObject> style(const Scene& scene, std::vector<std::optional<PreparedObject>> all,
+                                        std::vector<std::string>& notices) {
   std::vector<passes::StyledObject> styled;
   for (std::size_t i = 0; i < all.size(); ++i) {
     const ObjectScene& object = scene.objects[i];
     PreparedObject& prepared = *all[i];
     for (const std::string& warning : prepared.imported.summary.warnings) {
-      drawing.notices.push_back(object.mesh.string() + ": " + warning);
+      notices.push_back(object.mesh.string() + ": " + warning);
     }
     passes::StyledObject one;
     one.object = std::make_unique<passes::DrawnObject>(std::move(prepared.shape));
     // The list of passes, in drawing order. A new pass adds its line here.
+    // Edges are drawn from the list's end on.
+    std::unique_ptr<passes::ObjectPass> fluff;
+    if (prepared.fluff) fluff = make_fluffy_pass(*one.object, *prepared.fluff, object, scene.light);
+    if (fluff && !fluff_is_under_line(object)) one.passes.push_back(std::move(fluff));
     if (object.holdout) {
       one.passes.push_back(std::make_unique<passes::HoldoutPass>(*one.object));
     } else {
       one.passes.push_back(std::make_unique<passes::ToonPass>(*one.object, prepared.imported.mesh, prepared.toon));
     }
     if (object.outline) add_outline(one, prepared.imported.mesh, *object.outline, prepared.line_factors);
+    if (fluff) one.passes.push_back(std::move(fluff));
     styled.push_back(std::move(one));
   }
-  drawing.renderer = std::make_unique<passes::LayerRenderer>(std::move(styled), picture);
+  return styled;
+}
+
+}  // namespace
+
+Drawing make_drawing(const Scene& scene, const passes::PixelRect& picture, const RegionOptions& regions) {
+  auto preparing = std::async(std::launch::async, prepare_all, std::cref(scene), std::cref(regions));
+  Drawing drawing;
+  drawing.context = gl::Context::headless();
+  drawing.picture = picture;
+  drawing.renderer =
+      std::make_unique<passes::LayerRenderer>(style(scene, preparing.get(), drawing.notices), drawing.picture);
   return drawing;
+}
+
+struct PreparedObjects::All {
+  std::vector<std::optional<PreparedObject>> objects;
+};
+PreparedObjects::PreparedObjects(std::unique_ptr<All> all) : all_(std::move(all)) {}
+PreparedObjects::~PreparedObjects() = default;
+PreparedObjects::PreparedObjects(PreparedObjects&&) noexcept = default;
+PreparedObjects& PreparedObjects::operator=(PreparedObjects&&) noexcept = default;
+
+PreparedObjects prepare_objects(const Scene& scene) {
+  auto all = std::make_unique<PreparedObjects::All>();
+  all->objects = prepare_all(scene, {});
+  return PreparedObjects(std::move(all));
+}
+
+void redraw(Drawing& drawing, const Scene& scene, PreparedObjects objects) {
+  std::vector<std::string> notices;  // said already when the run began
+  std::vector<passes::StyledObject> styled = style(scene, std::move(objects.all_->objects), notices);
+  drawing.renderer = std::make_unique<passes::LayerRenderer>(std::move(styled), drawing.picture);
 }
 
 }  // namespace rinkaku::pipeline

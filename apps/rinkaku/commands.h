@@ -23,6 +23,30 @@ struct RenderCall {
 };
 int render(const RenderCall& call);
 
+/// Of play and live.
+struct ViewCall {
+  std::string scene;
+  std::string input;   ///< play only
+  std::string camera;  ///< the rest but `seconds`, `no_panel`, `screenshots`: live only
+  std::string record;
+  std::string virtual_camera;
+  std::string session;
+  std::string codec;
+  std::string screenshots;
+  double seconds = 0;
+  bool headless = false;
+  bool no_panel = false;
+  bool force = false;
+  bool json = false;
+};
+int view(const ViewCall& call, bool live);
+
+struct DevicesCall {
+  std::vector<std::string> devices;  ///< empty: all there are
+  bool json = false;
+};
+int devices(const DevicesCall& call);
+
 struct ExplainCall {
   std::string scene;
   bool layers = false;
@@ -97,6 +121,7 @@ struct BakeCall {
   int shells = 1;
   double inner_radii = 1.5;
   double depth_radii = 0;
+  bool drop_hidden = false;
   bool force = false;
   bool json = false;
 };

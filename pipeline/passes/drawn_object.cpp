@@ -69,11 +69,19 @@ void DrawnObject::upload() {
 }
 
 std::span<const Run> DrawnObject::bind_front() {
+  if (shape_.last_look().cull_back_faces) {
+    glEnable(GL_CULL_FACE);
+  } else {
+    glDisable(GL_CULL_FACE);
+  }
   bind_triangles(front_buffer_.name());
   return shape_.last_look().front_runs;
 }
 
-void DrawnObject::bind_whole(const gl::StaticBuffer& triangles) { bind_triangles(triangles.name()); }
+void DrawnObject::bind_whole(const gl::StaticBuffer& triangles) {
+  glDisable(GL_CULL_FACE);
+  bind_triangles(triangles.name());
+}
 
 void DrawnObject::bind_triangles(GLuint buffer) {
   glFrontFace(shape_.mirrored() ? GL_CCW : GL_CW);  // window rows run downwards (see clip_from_camera)

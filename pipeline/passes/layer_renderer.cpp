@@ -50,13 +50,13 @@ bool LayerRenderer::draw(const View& view, Layer& layer) {
   glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
   glEnable(GL_DEPTH_TEST);
   glDepthFunc(GL_GEQUAL);
-  glDisable(GL_CULL_FACE);  // the lists hold what is to be seen
   glDisable(GL_BLEND);
   for (Visible& v : visible_) {
     v.styled->object->upload();
     const DrawCall call = call_for(view, *v.styled, layer.rect);
     for (auto& pass : v.styled->passes) pass->draw_surface(call);
   }
+  glDisable(GL_CULL_FACE);
   glEnable(GL_BLEND);
   glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
   glDepthMask(GL_FALSE);
