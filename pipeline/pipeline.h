@@ -25,8 +25,8 @@ struct RenderOptions {
   std::string layers_folder{};                                        ///< empty: layers are not written
   bool overwrite = false;
   std::function<void(const std::string& line)> tell{};  ///< what set-up has to say at once, as it takes long
-  std::string virtual_camera{};  ///< a video output device that gets the frames as well
-  bool watched = false;          ///< by a window: only `output` is then written, if it is given
+  std::string virtual_camera{};                         ///< a video output device that gets the frames as well
+  bool watched = false;                                 ///< by a window: only `output` is then written, if it is given
 };
 
 struct RenderReport {

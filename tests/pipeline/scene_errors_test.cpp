@@ -71,9 +71,10 @@ INSTANTIATE_TEST_SUITE_P(
                  "DIR/scene.toml:8:10: unknown key 'band' in toon of [[object]]; did you mean 'bands'?"},
         BadScene{"InnerHeader", object + "[object.outline]\nwidth = 3\n",
                  "DIR/scene.toml:9:1: unknown key 'width' in outline of [[object]]; did you mean 'width_px'?"},
-        BadScene{"NothingNear", object + "velocity = \"cow.rgn\"\n",
-                 "DIR/scene.toml:8:1: unknown key 'velocity' in [[object]]; known keys are anchor, colour, crease_deg, "
-                 "fluffy, height_m, holdout, mesh, name, outline, position_m, regions, rotation_deg, scale, toon and up"},
+        BadScene{
+            "NothingNear", object + "velocity = \"cow.rgn\"\n",
+            "DIR/scene.toml:8:1: unknown key 'velocity' in [[object]]; known keys are anchor, colour, crease_deg, "
+            "fluffy, height_m, holdout, mesh, name, outline, position_m, regions, rotation_deg, scale, toon and up"},
         BadScene{"TableOfALaterVersion", object + "[water]\n",
                  "DIR/scene.toml:8:2: unknown key 'water'; known keys are light, object, output, plate and track"},
         BadScene{"TablesOfALaterVersion", object + "[[foreground]]\nname = \"x\"\n",
