@@ -72,6 +72,11 @@ PreparedObject prepare(mesh::Imported imported, const ObjectScene& object, const
   return {std::move(imported), toon, std::move(shape), std::move(factors), std::move(fluff)};
 }
 
+// Whether the mesh's file moves it: regions are of its pose at rest.
+bool may_move(const mesh::ImportSummary& mesh) {
+  return mesh.skins > 0 || mesh.morph_targets > 0 || !mesh.clips.empty();
+}
+
 // One object after the other, as baking takes all cores.
 void use_regions(const Scene& scene, std::span<std::optional<PreparedObject>> all, const RegionOptions& options) {
   std::vector<PlacedBox> boxes;
@@ -81,8 +86,15 @@ void use_regions(const Scene& scene, std::span<std::optional<PreparedObject>> al
   for (std::size_t i = 0; i < all.size(); ++i) {
     const ObjectScene& object = scene.objects[i];
     if (region_use(object) == RegionUse::None) continue;
+    if (may_move(all[i]->imported.summary)) {
+      if (options.tell) options.tell(object.name + ": moves (skins, morphs or clips), so it is drawn without regions");
+      continue;
+    }
     bool apart = true;
-    for (std::size_t k = 0; k < boxes.size(); ++k) apart = apart && (k == i || are_apart(boxes[i], boxes[k]));
+    for (std::size_t k = 0; k < boxes.size(); ++k) {
+      if (k == i) continue;
+      apart = apart && !may_move(all[k]->imported.summary) && are_apart(boxes[i], boxes[k]);
+    }
     all[i]->shape.use_regions(region_knowledge(object, all[i]->imported.mesh, apart, options));
   }
 }

@@ -100,7 +100,8 @@ RenderReport render(const Prepared& prepared, const RenderOptions& options, cons
   SpentLayers spent;
   if (plan.runs("draw")) {
     const passes::PixelRect picture{0, 0, result.width_px, result.height_px};
-    drawing.emplace(make_drawing(scene, lens ? lens->pinhole_rect() : picture, {.tell = options.tell, .stop = &stop}));
+    drawing.emplace(make_drawing(scene, lens ? lens->pinhole_rect() : picture,
+                                 {.tell = options.tell, .stop = &stop, .wait_for_lists = !described.live}));
     result.notices.insert(result.notices.end(), drawing->notices.begin(), drawing->notices.end());
     line.add(Group::Draw, "draw", [&](Work& work) {
       work.layer = spent.take();

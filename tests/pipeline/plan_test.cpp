@@ -152,6 +152,9 @@ TEST(Plan, RegionsProductFollowsFromWhatShowsOfAnObject) {
   EXPECT_EQ(region_use(flat), RegionUse::Cover);
   flat.outline.emplace();
   EXPECT_EQ(region_use(flat), RegionUse::Faces) << "lines run inside its shape";
+  flat.outline.reset();
+  flat.fluffy.emplace();
+  EXPECT_EQ(region_use(flat), RegionUse::Faces) << "as fluff does";
 }
 
 TEST(Plan, LensRunsOnlyForADistortedCameraThatSeesCg) {

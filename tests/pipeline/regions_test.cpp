@@ -14,6 +14,7 @@
 #include "silhouette/region_file.h"
 #include "tests/pipeline/shot_folder.h"
 #include "tests/support/environment.h"
+#include "tests/support/test_data.h"
 
 namespace rinkaku::pipeline {
 namespace {
@@ -150,6 +151,15 @@ TEST_F(RegionsInScenes, HoldoutsHideTheSameByTheirMattes) {
   }
   EXPECT_GT(hidden, 8'000) << "the ball hides the wall";
   EXPECT_LE(different, hidden / 2000);
+}
+
+TEST_F(RegionsInScenes, WhatMovesIsDrawnWhole) {
+  RINKAKU_NEEDS_DATA();
+  render(
+      "[[object]]\nmesh = \"" + test::data("meshes/animated/Fox.glb").string() + "\"\nheight_m = 0.5\nregions = true\n",
+      "fox.mkv");
+  ASSERT_EQ(told_.size(), 1u);
+  EXPECT_EQ(told_[0], "Fox.glb: moves (skins, morphs or clips), so it is drawn without regions");
 }
 
 TEST_F(RegionsInScenes, WhatTouchesOthersNeedsListsThatKeepItsDepth) {
