@@ -99,8 +99,8 @@ RenderReport render(const Prepared& prepared, const RenderOptions& options, cons
   std::optional<Drawing> drawing;
   SpentLayers spent;
   if (plan.runs("draw")) {
-    drawing.emplace(
-        make_drawing(scene, lens ? lens->pinhole_rect() : passes::PixelRect{0, 0, result.width_px, result.height_px}));
+    const passes::PixelRect picture{0, 0, result.width_px, result.height_px};
+    drawing.emplace(make_drawing(scene, lens ? lens->pinhole_rect() : picture, {.tell = options.tell, .stop = &stop}));
     result.notices.insert(result.notices.end(), drawing->notices.begin(), drawing->notices.end());
     line.add(Group::Draw, "draw", [&](Work& work) {
       work.layer = spent.take();

@@ -24,8 +24,9 @@ struct RenderOptions {
   std::int64_t end_frame = std::numeric_limits<std::int64_t>::max();  ///< exclusive
   std::string layers_folder{};                                        ///< empty: layers are not written
   bool overwrite = false;
-  std::string virtual_camera{};  ///< a video output device that gets the frames as well
-  bool watched = false;          ///< by a window: only `output` is then written, if it is given
+  std::function<void(const std::string& line)> tell{};  ///< what set-up has to say at once, as it takes long
+  std::string virtual_camera{};                         ///< a video output device that gets the frames as well
+  bool watched = false;                                 ///< by a window: only `output` is then written, if it is given
 };
 
 struct RenderReport {

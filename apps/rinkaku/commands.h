@@ -89,6 +89,20 @@ struct CurvatureCall {
 };
 int curvature(const CurvatureCall& call);
 
+struct SheetCall {
+  std::string mesh;
+  std::string output;
+  std::string styles;  ///< "a,b,c", or empty: all
+  double width_px = 3;
+  int cell_px = 360;
+  int columns = 4;
+  double turn_deg = 35;
+  double raise_deg = 20;
+  bool force = false;
+  bool json = false;
+};
+int sheet(const SheetCall& call);
+
 struct BakeCall {
   std::string mesh;
   std::string output;
@@ -96,6 +110,7 @@ struct BakeCall {
   int shells = 1;
   double inner_radii = 1.5;
   double depth_radii = 0;
+  bool drop_hidden = false;
   bool force = false;
   bool json = false;
 };

@@ -29,6 +29,7 @@ struct CommandLine {
   BoardCall board;
   CalibrateCall calibrate;
   CurvatureCall curvature;
+  SheetCall sheet;
   BakeCall bake;
   MatteCall matte;
   VerifyCall verify;
@@ -48,6 +49,7 @@ struct CommandLine {
     add_board();
     add_calibrate();
     add_curvature();
+    add_sheet();
     add_bake();
     add_matte();
     add_verify();
@@ -194,6 +196,26 @@ struct CommandLine {
     add_json(sub, c.json);
   }
 
+  void add_sheet() {
+    SheetCall& c = sheet;
+    CLI::App* sub = add("sheet", "Draw a mesh in every style of line, side by side.",
+                        "rinkaku sheet cat.glb -o sheet.png", [&c] { return rinkaku::app::sheet(c); });
+    sub->add_option("MESH", c.mesh, "Mesh file (glTF, GLB, VRM, OBJ, PLY, OFF, STL, FBX, ...)")->required();
+    sub->add_option("-o,--output", c.output, "PNG to write")->required();
+    sub->add_option("--styles", c.styles, "Only these, separated by commas: a method of a scene's outline each");
+    sub->add_option("--width-px", c.width_px, "The lines' width")->check(CLI::Range(0.1, 100.0))->capture_default_str();
+    sub->add_option("--cell-px", c.cell_px, "Size of one picture")->check(CLI::Range(64, 2048))->capture_default_str();
+    sub->add_option("--columns", c.columns, "Pictures side by side")->check(CLI::Range(1, 16))->capture_default_str();
+    sub->add_option("--turn-deg", c.turn_deg, "From how far to the side of the front it is seen")
+        ->check(CLI::Range(-360.0, 360.0))
+        ->capture_default_str();
+    sub->add_option("--raise-deg", c.raise_deg, "From how far above the ground")
+        ->check(CLI::Range(-89.0, 89.0))
+        ->capture_default_str();
+    add_force(sub, c.force);
+    add_json(sub, c.json);
+  }
+
   void add_bake() {
     BakeCall& c = bake;
     CLI::App* sub =
@@ -214,6 +236,8 @@ struct CommandLine {
                     "Add lists that keep the depth within this distance, in radii of the object; 0: none")
         ->check(CLI::Range(0.0, 1.0))
         ->capture_default_str();
+    sub->add_flag("--drop-hidden", c.drop_hidden,
+                  "Leave out of mattes what the front mesh hides from every eye of a region; takes twice as long");
     add_force(sub, c.force);
     add_json(sub, c.json);
   }

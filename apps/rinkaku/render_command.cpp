@@ -89,6 +89,7 @@ int render(const RenderCall& call) {
   options.bit_rate = call.bit_rate;
   options.layers_folder = call.layers;
   options.overwrite = call.force;
+  options.tell = [](const std::string& line) { std::fprintf(stderr, "rinkaku: note: %s\n", line.c_str()); };
   set_frames(call.frames, options);
   std::optional<files::PendingFile> timings;
   if (!call.timings.empty()) timings.emplace(call.timings, call.force);

@@ -71,9 +71,10 @@ INSTANTIATE_TEST_SUITE_P(
                  "DIR/scene.toml:8:10: unknown key 'band' in toon of [[object]]; did you mean 'bands'?"},
         BadScene{"InnerHeader", object + "[object.outline]\nwidth = 3\n",
                  "DIR/scene.toml:9:1: unknown key 'width' in outline of [[object]]; did you mean 'width_px'?"},
-        BadScene{"NothingNear", object + "regions = \"cow.rgn\"\n",
-                 "DIR/scene.toml:8:1: unknown key 'regions' in [[object]]; known keys are anchor, colour, crease_deg, "
-                 "height_m, holdout, mesh, name, outline, position_m, rotation_deg, scale, toon and up"},
+        BadScene{
+            "NothingNear", object + "velocity = \"cow.rgn\"\n",
+            "DIR/scene.toml:8:1: unknown key 'velocity' in [[object]]; known keys are anchor, colour, crease_deg, "
+            "fluffy, height_m, holdout, mesh, name, outline, position_m, regions, rotation_deg, scale, toon and up"},
         BadScene{"TableOfALaterVersion", object + "[water]\n",
                  "DIR/scene.toml:8:2: unknown key 'water'; known keys are light, object, output, plate and track"},
         BadScene{"TablesOfALaterVersion", object + "[[foreground]]\nname = \"x\"\n",
@@ -291,9 +292,29 @@ INSTANTIATE_TEST_SUITE_P(
                  "'width_m' in place of 'width_px'"},
         BadScene{"LimitsCrossed", object + "outline = { width_m = 0.01, min_px = 5, max_px = 4 }\n",
                  "DIR/scene.toml:8:50: 'max_px' in outline of [[object]] must not be below 'min_px'"},
-        BadScene{"UnknownMethod", object + "outline = { method = \"curved\" }\n",
-                 "DIR/scene.toml:8:22: 'method' in outline of [[object]] must be \"uniform\" or \"curvature\", found "
-                 "the text \"curved\""},
+        BadScene{
+            "UnknownMethod", object + "outline = { method = \"curved\" }\n",
+            "DIR/scene.toml:8:22: 'method' in outline of [[object]] must be one of \"uniform\", \"curvature\", "
+            "\"hull\", \"depth_normals\", \"silhouette\", \"laplacian\", \"z_lines\", \"hidden_lines\", \"facing\", "
+            "\"isophote\", \"wobble\", \"strokes\", found the text \"curved\""},
+        BadScene{"KeyOfAnotherMethod", object + "outline = { method = \"hull\", wobble = 1 }\n",
+                 "DIR/scene.toml:8:39: 'wobble' in outline of [[object]] goes with method = \"wobble\"; add that, or "
+                 "leave it out"},
+        BadScene{"ThresholdOfNoMethod", object + "outline = { threshold = 0.2 }\n",
+                 "DIR/scene.toml:8:25: 'threshold' in outline of [[object]] goes with method = \"facing\" or "
+                 "\"isophote\"; add that, or leave it out"},
+        BadScene{"WidthOfFacing", object + "outline = { method = \"facing\", width_px = 2 }\n",
+                 "DIR/scene.toml:8:43: 'width_px' in outline of [[object]] has no meaning with method = \"facing\"; "
+                 "give 'threshold' in its place"},
+        BadScene{"TaperOfAPicture", object + "outline = { method = \"silhouette\", taper_px = 2 }\n",
+                 "DIR/scene.toml:8:47: 'taper_px' in outline of [[object]] goes with methods whose lines follow edges "
+                 "of the mesh; leave it out, or choose another 'method'"},
+        BadScene{
+            "MisspeltInnerKey", object + "outline = { inner = { crease = false } }\n",
+            "DIR/scene.toml:8:23: unknown key 'crease' in inner of outline of [[object]]; did you mean 'crease_deg'?"},
+        BadScene{"BrushThatIsNotThere", object + "outline = { method = \"strokes\", brush = \"gone.png\" }\n",
+                 "DIR/scene.toml:8:41: 'brush' in outline of [[object]] names a file that doesn't exist: "
+                 "DIR/gone.png"},
         BadScene{"ExaggeratedUniform", object + "outline = { exaggeration = 2 }\n",
                  "DIR/scene.toml:8:28: 'exaggeration' in outline of [[object]] goes with method = \"curvature\"; add "
                  "that, or leave it out"},
