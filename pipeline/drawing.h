@@ -53,6 +53,7 @@ struct Drawing {
 /// not compiled. `picture` is the part of the pinhole picture that can be seen.
 /// Throws Error: Input for a mesh or its regions, Runtime if there is no OpenGL 4.5.
 Drawing make_drawing(const Scene& scene, const passes::PixelRect& picture, const RegionOptions& regions = {});
+
 /// Draws these objects of the scene under its light from now on, in the context that there is; what make_drawing() got
 /// of the scene beside them stays. `objects` are prepared from the same scene. On the drawing's thread; nothing changes
 /// if it throws.

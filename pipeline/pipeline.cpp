@@ -177,7 +177,7 @@ RenderReport render(const Prepared& prepared, const RenderOptions& options, cons
   if (plan.runs("draw") && result.frames > 0 && result.posed_frames == 0 && all_there) {
     throw no_pose_error(prepared, described, result.frames);
   }
-  for (sink::Sink* each : {output.sink.get(), layers.sink.get()}) {
+  for (sink::Sink* each : {output.sink.get(), layers.sink.get(), virtual_camera.get()}) {
     if (each == nullptr) continue;
     each->finish();
     if (!each->notice().empty()) result.notices.push_back(each->notice());

@@ -124,7 +124,7 @@ struct CommandLine {
     sub->add_option("--session", c.session,
                     "New folder to keep the session in: 'rinkaku render FOLDER' makes the same frames again");
     sub->add_option("--virtual-camera", c.virtual_camera,
-                    "Video output device (v4l2loopback) that other programs read as a camera");
+                    "Video output device (v4l2loopback), or pipewire, that other programs read as a camera");
     sub->add_flag("--headless", c.headless, "Without a window, until Ctrl-C or --seconds");
     add_force(sub, c.force);
   }
