@@ -69,7 +69,8 @@ glm::vec4 filmed(const Eye& eye, const Picture& plate, double surroundings_m, co
 }  // namespace
 
 void ReferencePicture::paint(const Surface& surface, const CameraModel& camera, const RigidTransform& camera_from_world,
-                             const MirrorOptions& options, const Picture* plate, const Picture* mirrored, int step_px) {
+                             const MirrorOptions& options, const Picture* plate, const Picture* mirrored,
+                             int mirrored_step_px, int step_px) {
   step_px_ = step_px;
   width_px_ = (camera.width_px + step_px - 1) / step_px + 1;
   height_px_ = (camera.height_px + step_px - 1) / step_px + 1;
@@ -95,7 +96,7 @@ void ReferencePicture::paint(const Surface& surface, const CameraModel& camera, 
         seen = glm::mix(seen, glm::vec3(film), film.a);
       }
       if (mirrored != nullptr && !mirrored->empty()) {
-        const glm::vec4 object = texel(*mirrored, mirrored->width_px - 1 - x / step_px, y / step_px);
+        const glm::vec4 object = texel(*mirrored, mirrored->width_px - 1 - x / mirrored_step_px, y / mirrored_step_px);
         seen = glm::vec3(object) + seen * (1 - object.a);
       }
       const double grazing = 1 - std::min(falls, 1.0);

@@ -46,9 +46,11 @@ struct MirrorOptions {
 /// sRGB-coded, 0 to 1, mixed as they are, as painters mix. One thread.
 class ReferencePicture {
  public:
-  /// A pixel of it stands for `step_px` x `step_px` of the camera's pinhole picture and a border around it.
+  /// A pixel of it stands for `step_px` x `step_px` of the camera's pinhole picture; `mirrored` (by mirrored_eye(),
+  /// null if there are no objects) may have another step.
   void paint(const Surface& surface, const CameraModel& camera, const RigidTransform& camera_from_world,
-             const MirrorOptions& options, const Picture* plate, const Picture* mirrored, int step_px);
+             const MirrorOptions& options, const Picture* plate, const Picture* mirrored, int mirrored_step_px,
+             int step_px);
 
   /// At a pixel of the pinhole picture: bilinear; beyond the border as at it.
   glm::vec3 at(glm::dvec2 pixel) const;

@@ -49,23 +49,38 @@ double StrokeDensity::at(glm::dvec2 p) const {
   return s.pixels_per_m2 / (length * stroke_width_px(size_, length));
 }
 
+namespace {
+
+// The sum of a function over the surface, by squares.
+template <typename Function>
+double integral(const Surface& surface, const Function& function) {
+  constexpr int across = 128;
+  const glm::dvec2 span = surface.most() - surface.least();
+  double sum = 0;
+  for (int y = 0; y < across; ++y) {
+    for (int x = 0; x < across; ++x) {
+      const glm::dvec2 p = surface.least() + span * (glm::dvec2(x + 0.5, y + 0.5) / static_cast<double>(across));
+      if (surface.contains(p)) sum += function(p);
+    }
+  }
+  return sum * span.x * span.y / (across * across);
+}
+
+}  // namespace
+
+double seen_size(const Surface& surface, const std::optional<Outlook>& outlook) {
+  if (!outlook) return surface.area_m2();
+  const StrokeDensity density(surface, outlook, {});
+  return integral(surface, [&](glm::dvec2 p) { return density.pixels_per_m2(p); });
+}
+
 double covering_length_m(const Surface& surface, const std::optional<Outlook>& outlook, StrokeSize size, int strokes,
                          double layers) {
   if (!outlook) return std::sqrt(layers * surface.area_m2() / (strokes * size.width));
-  constexpr int across = 128;
-  const glm::dvec2 span = surface.most() - surface.least();
-  const double cell_m2 = span.x * span.y / (across * across);
   const auto needed = [&](double length_m) {  // strokes for one layer
     size.length_m = length_m;
     const StrokeDensity density(surface, outlook, size);
-    double sum = 0;
-    for (int y = 0; y < across; ++y) {
-      for (int x = 0; x < across; ++x) {
-        const glm::dvec2 p = surface.least() + span * (glm::dvec2(x + 0.5, y + 0.5) / static_cast<double>(across));
-        if (surface.contains(p)) sum += density.at(p) * cell_m2;
-      }
-    }
-    return sum;
+    return integral(surface, [&](glm::dvec2 p) { return density.at(p); });
   };
   double least = 1e-6, most = 1e6;
   for (int i = 0; i < 48; ++i) {

@@ -50,6 +50,9 @@ class StrokeDensity {
   glm::dvec3 origin_{0}, along_x_{0}, along_y_{0};  // camera_from_surface
 };
 
+/// How much of the outlook's picture a surface takes, in pixels; without an outlook its area in square metres.
+double seen_size(const Surface& surface, const std::optional<Outlook>& outlook);
+
 /// The length (in metres, see StrokeSize) at which `strokes` strokes cover the picture `layers` times; `size` gives the
 /// rest. Without an outlook, what covers the surface so many times, seen from above.
 double covering_length_m(const Surface& surface, const std::optional<Outlook>& outlook, StrokeSize size, int strokes,

@@ -20,8 +20,7 @@ LayerRenderer::LayerRenderer(std::vector<StyledObject> objects, const PixelRect&
 DrawCall LayerRenderer::call_for(const View& view, const StyledObject& styled, const PixelRect& rect) const {
   const glm::dmat4& world_from_object = styled.object->shape().world_from_object();
   const glm::dmat4 camera_from_object = to_matrix(view.camera_from_world) * world_from_object;
-  return {view, glm::mat4(clip_from_view(view, rect) * camera_from_object),
-          glm::vec2(rect.width_px, rect.height_px),
+  return {view, glm::mat4(clip_from_view(view, rect) * camera_from_object), glm::vec2(rect.width_px, rect.height_px),
           static_cast<float>(view.camera.fx_px * styled.object->shape().push_m())};
 }
 

@@ -17,7 +17,8 @@ struct StyledObject {
   std::vector<std::unique_ptr<ObjectPass>> passes;
 };
 
-/// Draws all CG objects of a frame, and the passes of the whole scene, into one layer, in the rectangle that they cover and nowhere else.
+/// Draws all CG objects of a frame, and the passes of the whole scene, into one layer, in the rectangle that they cover
+/// and nowhere else.
 ///
 /// Needs the GL context that was current at construction to be current.
 class LayerRenderer {
