@@ -120,6 +120,16 @@ std::vector<std::optional<PreparedObject>> prepare_all(const Scene& scene) {
   return prepared;
 }
 
+water::Solid in_world(const mesh::Mesh& mesh, const glm::dmat4& world_from_object) {
+  water::Solid solid;
+  solid.triangles.assign(mesh.triangles.begin(), mesh.triangles.end());
+  solid.positions_m.reserve(mesh.positions.size());
+  for (const glm::vec3& p : mesh.positions) {
+    solid.positions_m.emplace_back(world_from_object * glm::dvec4(p, 1));
+  }
+  return solid;
+}
+
 }  // namespace
 
 mesh::Imported load_mesh(const ObjectScene& object) {
@@ -147,6 +157,7 @@ Drawing make_drawing(const Scene& scene, const passes::PixelRect& picture) {
     for (const std::string& warning : prepared.imported.summary.warnings) {
       drawing.notices.push_back(object.mesh.string() + ": " + warning);
     }
+    if (scene.water) drawing.solids.push_back(in_world(prepared.imported.mesh, prepared.shape.world_from_object()));
     passes::StyledObject one;
     one.object = std::make_unique<passes::DrawnObject>(std::move(prepared.shape));
     // The list of passes, in drawing order. A new pass adds its line here.

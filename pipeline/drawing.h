@@ -7,6 +7,7 @@
 #include "mesh/import.h"
 #include "pipeline/passes/layer.h"
 #include "pipeline/scene/scene.h"
+#include "water/section.h"
 
 namespace rinkaku::gl {
 class Context;
@@ -27,6 +28,7 @@ struct Drawing {
   Drawing(Drawing&&) noexcept;
   std::unique_ptr<gl::Context> context;
   std::unique_ptr<passes::LayerRenderer> renderer;
+  std::vector<water::Solid> solids;  ///< the objects in the world, if there is water for them to stand in
   std::vector<std::string> notices;  ///< what the meshes' import had to say
 };
 

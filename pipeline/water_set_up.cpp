@@ -87,9 +87,14 @@ water::PaintingOptions painting_options(const WaterScene& water, const WaterSurf
   o.ripple = water.ripple;
   o.key_frames = water.key_frames;
   o.seconds_per_frame = 1 / frames_per_s;
-  const bool keys =
-      water.colours == WaterScene::Colours::Keys || (water.colours == WaterScene::Colours::ByCamera && camera_still);
-  o.colours = keys ? water::PaintingOptions::Colours::Keys : water::PaintingOptions::Colours::Followed;
+  using Colours = water::PaintingOptions::Colours;
+  switch (water.colours) {
+    case WaterScene::Colours::Keys: o.colours = Colours::Keys; break;
+    case WaterScene::Colours::Followed: o.colours = Colours::Followed; break;
+    case WaterScene::Colours::Sampled: o.colours = Colours::Sampled; break;
+    case WaterScene::Colours::ByCamera: o.colours = camera_still ? Colours::Keys : Colours::Followed; break;
+  }
+  o.mean = water.mean;
   o.flow.method = water.flow == WaterScene::Flow::Arrows ? water::FlowOptions::Method::Arrows
                                                          : water::FlowOptions::Method::DivergenceFree;
   o.flow.alpha_m = surface.alpha_m.value_or(water.alpha_m.value_or(0));

@@ -10,6 +10,7 @@
 #include "pipeline/small_picture.h"
 #include "pipeline/water_set_up.h"
 #include "water/pass/water_pass.h"
+#include "water/waterline.h"
 
 namespace rinkaku::pipeline {
 namespace {
@@ -29,6 +30,7 @@ struct WaterStage::Parts {
     water::Surface surface;
     water::MirrorOptions mirror;
     std::optional<water::Painting> painting;
+    std::optional<water::Waterline> waterline;
     water::ReferencePicture reference;
     std::optional<std::int64_t> reference_frame;
     bool followed = false;
@@ -38,7 +40,7 @@ struct WaterStage::Parts {
       : camera(c), renderer(r), has_objects(!scene.objects.empty()), plates(plate_most_px) {}
 
   void add_surface(const WaterScene& water, const WaterSurfaceScene& surface, const KnownPoses& poses,
-                   double frames_per_s, double share);
+                   double frames_per_s, std::span<const water::Solid> solids, double share);
   const water::ReferencePicture& reference(Piece& piece, const Frame& frame, const RigidTransform& camera_from_world);
   void mirror_objects(const water::Surface& surface, const RigidTransform& camera_from_world);
 
@@ -52,13 +54,15 @@ struct WaterStage::Parts {
   std::optional<std::int64_t> plate_frame;
   passes::Layer mirror_layer;
   std::vector<water::PaintedSurface> painted;
+  std::vector<water::SprayOptions> sprays;
+  water::Strokes over, drops;  // over everything
   std::vector<std::string> notices;
 };
 
 void WaterStage::Parts::add_surface(const WaterScene& water, const WaterSurfaceScene& surface, const KnownPoses& poses,
-                                    double frames_per_s, double share) {
+                                    double frames_per_s, std::span<const water::Solid> solids, double share) {
   auto piece = std::make_unique<Piece>(
-      Piece{surface.where, make_surface(surface, poses, frames_per_s), mirror_options(water), {}, {}, {}, false});
+      Piece{surface.where, make_surface(surface, poses, frames_per_s), mirror_options(water), {}, {}, {}, {}, false});
   if (surface.colour) {
     const auto& c = *surface.colour;
     piece->mirror.water_colour = glm::vec3(c[0], c[1], c[2]);
@@ -66,10 +70,20 @@ void WaterStage::Parts::add_surface(const WaterScene& water, const WaterSurfaceS
   const auto arrows = make_arrows(surface, piece->surface, camera, poses, frames_per_s);
   water::PaintingOptions options = painting_options(water, surface, poses.still(), frames_per_s);
   options.strokes = std::max(1, static_cast<int>(std::lround(water.strokes * share)));
-  piece->followed = options.colours == water::PaintingOptions::Colours::Followed;
+  using Colours = water::PaintingOptions::Colours;
+  piece->followed = options.colours == Colours::Followed;
   std::optional<water::Outlook> outlook;
   if (poses.still()) outlook = {camera, *poses.at(0, frames_per_s)};
-  piece->painting.emplace(piece->surface, arrows, outlook, options);
+  std::vector<water::Segment> bodies;
+  for (const water::Solid& solid : solids) {
+    const auto cut = water::section(solid, piece->surface);
+    bodies.insert(bodies.end(), cut.begin(), cut.end());
+  }
+  piece->painting.emplace(piece->surface, arrows, bodies, outlook, options);
+  if (water.waterline) {
+    piece->waterline.emplace(piece->surface, bodies,
+                             water::WaterlineOptions{water.waterline_colour, piece->painting->size(), frames_per_s});
+  }
   const water::Deviation d = piece->painting->deviation();
   if (d.largest_rad > std::numbers::pi / 4 && d.worst < surface.arrows.size()) {
     notices.push_back(surface.arrows[d.worst].where + ": the water flows " +
@@ -117,7 +131,7 @@ const water::ReferencePicture& WaterStage::Parts::reference(Piece& piece, const 
 }
 
 WaterStage::WaterStage(const Scene& scene, const CameraModel& camera, double frames_per_s,
-                       passes::LayerRenderer& renderer)
+                       std::span<const water::Solid> solids, passes::LayerRenderer& renderer)
     : parts_(std::make_unique<Parts>(scene, camera, renderer)) {
   const WaterScene& water = *scene.water;
   const KnownPoses poses(scene);
@@ -132,7 +146,11 @@ WaterStage::WaterStage(const Scene& scene, const CameraModel& camera, double fra
     sum += sizes.back();
   }
   for (std::size_t i = 0; i < water.surfaces.size(); ++i) {
-    parts_->add_surface(water, water.surfaces[i], poses, frames_per_s, sum > 0 ? sizes[i] / sum : 1);
+    parts_->add_surface(water, water.surfaces[i], poses, frames_per_s, solids,
+                        sum > 0 ? sizes[i] / sum : 1);
+  }
+  for (const WaterSprayScene& s : water.sprays) {
+    parts_->sprays.push_back({s.from_m, s.to_m, s.drops, s.height_m, s.size_m, s.colour, frames_per_s});
   }
   auto pass = std::make_unique<water::WaterPass>(water::line_brushes(), water::drop_brushes());
   parts_->pass = pass.get();
@@ -143,15 +161,19 @@ WaterStage::~WaterStage() = default;
 WaterStage::WaterStage(WaterStage&&) noexcept = default;
 
 void WaterStage::look(const Frame& frame, const RigidTransform& camera_from_world) {
-  parts_->painted.clear();
+  parts_->painted.clear(), parts_->over.clear(), parts_->drops.clear();
   for (auto& piece : parts_->pieces) {
     const auto make = [&]() -> const water::ReferencePicture& {
       return parts_->reference(*piece, frame, camera_from_world);
     };
     const water::Strokes& strokes = piece->painting->paint(frame.number, parts_->camera, camera_from_world, make);
     parts_->painted.push_back({&piece->surface, strokes});
+    if (piece->waterline) piece->waterline->add(frame.number, parts_->camera, camera_from_world, parts_->over);
   }
-  parts_->pass->show(parts_->painted, {}, {});
+  for (const water::SprayOptions& spray : parts_->sprays) {
+    water::add_spray(spray, frame.number, parts_->camera, camera_from_world, parts_->drops);
+  }
+  parts_->pass->show(parts_->painted, parts_->over, parts_->drops);
 }
 
 const std::vector<std::string>& WaterStage::notices() const { return parts_->notices; }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -9,6 +10,7 @@
 #include "pipeline/frame/rigid_transform.h"
 #include "pipeline/passes/layer_renderer.h"
 #include "pipeline/scene/scene.h"
+#include "water/section.h"
 
 namespace rinkaku::pipeline {
 
@@ -16,9 +18,10 @@ namespace rinkaku::pipeline {
 /// the mirrored objects, and hands them to its pass in the renderer. Lives on the thread of the GL context.
 class WaterStage {
  public:
-  /// Adds its pass to `renderer`, which must outlive the stage. `frames_per_s` of the plate.
+  /// Adds its pass to `renderer`, which must outlive the stage. `solids` stand in the water; `frames_per_s` of the plate.
   /// Throws Error (Input), with the scene's line, for what can't be painted.
-  WaterStage(const Scene& scene, const CameraModel& camera, double frames_per_s, passes::LayerRenderer& renderer);
+  WaterStage(const Scene& scene, const CameraModel& camera, double frames_per_s, std::span<const water::Solid> solids,
+             passes::LayerRenderer& renderer);
   ~WaterStage();
   WaterStage(WaterStage&&) noexcept;
 

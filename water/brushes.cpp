@@ -29,7 +29,7 @@ void store(BrushSheet& sheet, const std::vector<Texel>& texels) {
 // One hair's line across the brush.
 void add_line(std::vector<Texel>& texels, const BrushSheet& size, std::uint64_t seed, double middle, double width,
               double paint) {
-  const double begin = 0.02 + 0.14 * scattered(seed, 1), end = 0.98 - 0.22 * scattered(seed, 2);
+  const double begin = 0.10 * scattered(seed, 1), end = 1 - 0.16 * scattered(seed, 2);
   const double light = 2 * scattered(seed, 3) - 1;
   const double wave = 0.02 * (scattered(seed, 4) - 0.5), phase = 6.28 * scattered(seed, 5);
   const double dry = scattered(seed, 6);  // where the hair runs out of paint
@@ -38,7 +38,7 @@ void add_line(std::vector<Texel>& texels, const BrushSheet& size, std::uint64_t 
       const double u = (x + 0.5) / size.width_px, v = (y + 0.5) / size.height_px;
       const double off = std::abs(v - middle - wave * std::sin(3 * u + phase)) / width;
       if (off >= 1) continue;
-      const double ends = smooth(begin, begin + 0.07, u) * (1 - smooth(end - 0.25 * dry - 0.03, end, u));
+      const double ends = smooth(begin, begin + 0.05, u) * (1 - smooth(end - 0.2 * dry - 0.03, end, u));
       const double p = paint * ends * (1 - smooth(0.45, 1, off));
       Texel& t = texels[static_cast<std::size_t>(y) * size.width_px + x];
       t.paint += (1 - t.paint) * p;
@@ -59,8 +59,8 @@ BrushSheet line_brushes() {
       const std::uint64_t brush = static_cast<std::uint64_t>(density * brush_variants + variant) * 64;
       for (int i = 0; i < lines; ++i) {
         const std::uint64_t seed = brush + static_cast<std::uint64_t>(i);
-        const double middle = 0.09 + 0.82 * (i + 0.2 + 0.6 * scattered(seed, 7)) / lines;
-        const double width = (0.6 + 0.6 * scattered(seed, 8)) * (0.055 + 0.01 * density);
+        const double middle = 0.05 + 0.90 * (i + 0.2 + 0.6 * scattered(seed, 7)) / lines;
+        const double width = (0.6 + 0.6 * scattered(seed, 8)) * (0.085 + 0.007 * density);
         add_line(texels, sheet, seed, middle, width, 0.6 + 0.4 * scattered(seed, 9));
       }
       store(sheet, texels);

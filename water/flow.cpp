@@ -15,7 +15,8 @@ FlowGrid::FlowGrid(const Surface& surface, int cells) {
   origin = (surface.least() + surface.most()) / 2.0 - glm::dvec2(columns, rows) * (cell_m / 2);
 }
 
-Flow::Flow(const Surface& surface, std::vector<ArrowKey> keys, const FlowOptions& options)
+Flow::Flow(const Surface& surface, std::vector<ArrowKey> keys, const FlowOptions& options,
+           std::span<const Segment> bodies)
     : keys_(std::move(keys)), grid_(surface, options.cells) {
   alpha_m_ = options.alpha_m > 0 ? options.alpha_m : glm::distance(surface.least(), surface.most()) / 8;
   for (const ArrowKey& key : keys_) {
@@ -24,7 +25,7 @@ Flow::Flow(const Surface& surface, std::vector<ArrowKey> keys, const FlowOptions
   if (still_) return;
   wish_.resize(grid_.nodes());
   crowd_.resize(grid_.nodes());
-  if (options.method == FlowOptions::Method::DivergenceFree) stream_.emplace(surface, grid_);
+  if (options.method == FlowOptions::Method::DivergenceFree) stream_.emplace(surface, grid_, bodies);
 }
 
 void Flow::set_frame(double frame) {
@@ -66,8 +67,7 @@ Deviation Flow::deviation() const {
 
 namespace {
 
-glm::dvec2 stepped(const Flow& flow, glm::dvec2 p, double dt) {
-  const glm::dvec2 k1 = flow.velocity(p);
+glm::dvec2 stepped(const Flow& flow, glm::dvec2 p, glm::dvec2 k1, double dt) {
   const glm::dvec2 k2 = flow.velocity(p + k1 * (dt / 2));
   const glm::dvec2 k3 = flow.velocity(p + k2 * (dt / 2));
   const glm::dvec2 k4 = flow.velocity(p + k3 * dt);
@@ -88,13 +88,16 @@ glm::dvec2 kept_in(const Surface& surface, glm::dvec2 a, glm::dvec2 b, double ma
 
 }  // namespace
 
-glm::dvec2 carried(const Flow& flow, const Surface& surface, glm::dvec2 p, double seconds) {
-  if (flow.still()) return p;
+void carry_along(const Flow& flow, const Surface& surface, double seconds, glm::dvec2& p, glm::dvec2& velocity) {
+  if (flow.still()) return;
   const double cell = flow.grid().cell_m;
-  const double way = glm::length(flow.velocity(p)) * seconds;
+  velocity = flow.velocity(p);
+  const double way = glm::length(velocity) * seconds;
   const int steps = std::clamp(static_cast<int>(std::ceil(way / (0.5 * cell))), 1, 64);
-  for (int i = 0; i < steps; ++i) p = kept_in(surface, p, stepped(flow, p, seconds / steps), 1e-3 * cell);
-  return p;
+  for (int i = 0; i < steps; ++i) {
+    if (i > 0) velocity = flow.velocity(p);
+    p = kept_in(surface, p, stepped(flow, p, velocity, seconds / steps), 1e-3 * cell);
+  }
 }
 
 }  // namespace rinkaku::water

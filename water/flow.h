@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "water/arrows.h"
@@ -31,8 +32,9 @@ struct Deviation {
 /// opposite keys never stall; without key frames it is solved once. One thread at a time.
 class Flow {
  public:
-  /// `surface` must outlive it. `keys` in order of frames.
-  Flow(const Surface& surface, std::vector<ArrowKey> keys, const FlowOptions& options);
+  /// `surface` must outlive it. `keys` in order of frames; `bodies` stand in the water.
+  Flow(const Surface& surface, std::vector<ArrowKey> keys, const FlowOptions& options,
+       std::span<const Segment> bodies = {});
 
   /// Makes velocity() that of this frame. Cost: nothing if the arrows stand still, else some 2 ms at 48 cells.
   void set_frame(double frame);
@@ -61,8 +63,9 @@ class Flow {
   std::vector<glm::dvec2> crowd_;  // likewise, in x
 };
 
-/// Where something at `p` is after `seconds`: classical Runge-Kutta steps of fourth order, none longer than half a
-/// cell. What would cross a shore stops a little short of it and slides on.
-glm::dvec2 carried(const Flow& flow, const Surface& surface, glm::dvec2 p, double seconds);
+/// Moves what is at `p` along for some seconds: classical Runge-Kutta steps of fourth order, none longer than half a
+/// cell. What would cross a shore stops a little short of it and slides on. `velocity` becomes that at the beginning of
+/// the last step.
+void carry_along(const Flow& flow, const Surface& surface, double seconds, glm::dvec2& p, glm::dvec2& velocity);
 
 }  // namespace rinkaku::water

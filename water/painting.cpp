@@ -14,6 +14,7 @@ namespace {
 constexpr int keys_ahead = 2;
 // Colours that follow have forgotten what was so many frames ago, to less than a step of 8 bits.
 constexpr int memory_frames = 30;
+constexpr double looked_ahead_frames = 6;
 constexpr std::uint32_t nobody = 0xffffffff;
 
 enum Purpose : std::uint64_t { LookX = 100, LookY, Light, Variant, Length, Turn };
@@ -35,23 +36,25 @@ ParticleOptions particle_options(const PaintingOptions& o) {
 
 }  // namespace
 
-Painting::Course::Course(const Surface& surface, const std::vector<ArrowKey>& arrows, const Plots& plots,
-                         const PaintingOptions& options)
-    : flow(surface, arrows, options.flow), particles(surface, plots, flow, particle_options(options)) {}
+Painting::Course::Course(const Painting& p)
+    : flow(p.surface_, p.arrows_, p.options_.flow, p.bodies_),
+      particles(p.surface_, *p.plots_, flow, particle_options(p.options_)) {}
 
-Painting::Painting(const Surface& surface, std::vector<ArrowKey> arrows, const std::optional<Outlook>& outlook,
-                   const PaintingOptions& options)
-    : surface_(surface), arrows_(std::move(arrows)), options_(settled(surface, outlook, options)) {
+Painting::Painting(const Surface& surface, std::vector<ArrowKey> arrows, std::vector<Segment> bodies,
+                   const std::optional<Outlook>& outlook, const PaintingOptions& options)
+    : surface_(surface),
+      arrows_(std::move(arrows)),
+      bodies_(std::move(bodies)), options_(settled(surface, outlook, options)) {
   plots_.emplace(surface, StrokeDensity(surface, outlook, options_.size), options_.strokes);
   restart();
 }
 
 void Painting::restart() {
   now_.reset(), ahead_.reset(), keys_.reset(), followed_.reset();
-  now_.emplace(surface_, arrows_, *plots_, options_);
+  now_.emplace(*this);
   const std::size_t places = now_->particles.list().size();
   if (options_.colours == PaintingOptions::Colours::Keys) {
-    ahead_.emplace(surface_, arrows_, *plots_, options_);
+    ahead_.emplace(*this);
     keys_.emplace(places, options_.key_frames);
   } else {
     followed_.emplace(places);
@@ -94,6 +97,12 @@ bool Painting::place(const Particle& p, Stroke& stroke) const {
          stroke.middle_px.y < static_cast<float>(camera.height_px) + room.y;
 }
 
+glm::dvec2 Painting::screen_velocity(const Particle& p) const {
+  const glm::dvec3 c = seen_.origin + seen_.along_x * p.at.x + seen_.along_y * p.at.y;
+  const glm::dvec3 v = seen_.along_x * p.velocity.x + seen_.along_y * p.velocity.y;
+  return glm::dvec2(v.x - c.x / c.z * v.z, v.y - c.y / c.z * v.z) * (seen_.camera->fx_px / c.z);
+}
+
 glm::vec3 Painting::wave_colour(const Particle& p, const ReferencePicture& reference) const {
   Stroke s;
   place(p, s);
@@ -101,7 +110,15 @@ glm::vec3 Painting::wave_colour(const Particle& p, const ReferencePicture& refer
   // Waves throw the mirrored ray up and down more than aside, and every stroke its own way.
   const glm::dvec2 look = glm::dvec2(s.middle_px) +
                           glm::dvec2(0.3 * signed_noise(p, LookX), signed_noise(p, LookY)) * (options_.ripple * length);
-  return neighbourhood_mean(reference, look, glm::abs(glm::dvec2(s.half_px)) * 0.6 + double(s.half_width_px));
+  if (!options_.mean) return reference.at(look);
+  // Along its way a stroke's colour is averaged over time as well: over the keys around, or by the filter, which is
+  // helped by looking some frames ahead and back.
+  glm::dvec2 reach = glm::abs(glm::dvec2(s.half_px)) * 0.2;
+  if (options_.colours == PaintingOptions::Colours::Followed) {
+    const glm::dvec2 step = screen_velocity(p) * options_.seconds_per_frame;
+    reach = glm::abs(glm::dvec2(s.half_px)) * 0.2 + glm::abs(step) * looked_ahead_frames;
+  }
+  return neighbourhood_mean(reference, look, reach + double(s.half_width_px));
 }
 
 void Painting::advance_colours(const ReferencePicture& reference) {
@@ -116,7 +133,8 @@ void Painting::advance_colours(const ReferencePicture& reference) {
     serial_[i] = p.serial;
     if (followed_) {
       const glm::vec3 colour = wave_colour(p, reference);
-      fresh ? followed_->start(i, colour) : followed_->follow(i, colour);
+      const bool start = fresh || options_.colours == PaintingOptions::Colours::Sampled;
+      start ? followed_->start(i, colour) : followed_->follow(i, colour);
     } else if (fresh || on_key) {
       const glm::vec3 colour = wave_colour(p, reference);
       // What comes after is filled in as well, should there be no later key.

@@ -27,13 +27,15 @@ struct PaintingOptions {
   double foreshortening = 0.5;  ///< 0: length as equation 4 has it; 1: shorter where the stroke leads away from the eye
   double seconds_per_frame = 1.0 / 25;
   double opacity = 0.9;   ///< of a stroke
-  double ripple = 0.6;    ///< how far from its place a stroke looks for its colour, in its own lengths
+  double ripple = 0.4;    ///< how far from its place a stroke looks for its colour, in its own lengths
   double variety = 0.05;  ///< by how much a stroke may be lighter or darker than its colour
   enum class Colours {
     Keys,     ///< at key frames ahead and behind, with a B-spline between: for a camera that stands still
-    Followed  ///< from what was seen up to now
+    Followed,  ///< from what was seen up to now
+    Sampled    ///< of this frame alone: they flicker; to compare with
   } colours = Colours::Keys;
   int key_frames = 15;
+  bool mean = true;  ///< of the neighbourhood (equation 2); else of the stroke's middle alone
   FlowOptions flow;
 };
 
@@ -44,10 +46,10 @@ using MakeReference = std::function<const ReferencePicture&()>;
 /// (Suzuki et al. 2004; after Meier 1996.) GL-free; one thread.
 class Painting {
  public:
-  /// `surface` must outlive it. `outlook`: where a camera stands that doesn't move; without one strokes are spread
+  /// `surface` must outlive it. `bodies`: what stands in it. `outlook`: where a camera stands that doesn't move; without one strokes are spread
   /// evenly over the surface.
-  Painting(const Surface& surface, std::vector<ArrowKey> arrows, const std::optional<Outlook>& outlook,
-           const PaintingOptions& options);
+  Painting(const Surface& surface, std::vector<ArrowKey> arrows, std::vector<Segment> bodies,
+           const std::optional<Outlook>& outlook, const PaintingOptions& options);
 
   /// The strokes of a frame, farthest first. Frames may be left out: the water flows on through them. Going back starts
   /// anew from frame 0. No allocation once warm. Cost: some 1.5 ms for 7,000 strokes.
@@ -61,8 +63,7 @@ class Painting {
 
  private:
   struct Course {  // the water at one moment
-    Course(const Surface& surface, const std::vector<ArrowKey>& arrows, const Plots& plots,
-           const PaintingOptions& options);
+    Course(const Painting& painting);
     Flow flow;
     Particles particles;
   };
@@ -73,6 +74,7 @@ class Painting {
   void restart();
   void go_to(std::int64_t frame, const MakeReference& reference);
   void advance_colours(const ReferencePicture& reference);
+  glm::dvec2 screen_velocity(const Particle& p) const;  // pixels a second
   glm::vec3 wave_colour(const Particle& p, const ReferencePicture& reference) const;
   bool place(const Particle& p, Stroke& stroke) const;
   void add_stroke(std::size_t i, const Particle& p);
@@ -80,6 +82,7 @@ class Painting {
 
   const Surface& surface_;
   std::vector<ArrowKey> arrows_;
+  std::vector<Segment> bodies_;
   PaintingOptions options_;
   std::optional<Plots> plots_;
   std::optional<Course> now_, ahead_;  // ahead_: two keys in advance, for colours at keys to come

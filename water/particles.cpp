@@ -11,8 +11,10 @@
 namespace rinkaku::water {
 namespace {
 
-// A plot is too empty below, too full above these parts of what it wants.
-constexpr double too_few = 0.6, too_many = 1.7;
+// Strokes that drift freely scatter by the square root of what is wanted. Only a plot that is emptier or fuller than that
+// by these factors is seen to, so that few have to come and go.
+double fewest(double wanted, double deviations) { return wanted - deviations * std::sqrt(wanted); }
+constexpr double few = 1.0, very_few = 1.8, many = 1.5;
 
 std::size_t capacity(const Plots& plots, const ParticleOptions& options) {
   std::size_t wanted = 0;
@@ -55,8 +57,7 @@ void Particles::carry() {
   for (std::size_t i = 0; i < list_.size(); ++i) {
     Particle& p = list_[i];
     if (p.state == Particle::State::Free) continue;
-    p.at = carried(flow_, surface_, p.at, options_.seconds_per_frame);
-    p.velocity = flow_.velocity(p.at);
+    carry_along(flow_, surface_, options_.seconds_per_frame, p.at, p.velocity);
     if (p.state == Particle::State::Alive) {
       p.opacity = std::min(p.opacity + fade, 1.0f);
     } else {
@@ -80,7 +81,7 @@ void Particles::count() {
     if (p.state != Particle::State::Alive) continue;
     const int plot = plots_.find(p.at);
     // Over the rim of the plots is not yet over the border: ask that where it is near.
-    if (plot < 0 && !surface_.contains(p.at)) {
+    if (plot == Plots::unseen || (plot == Plots::none && !surface_.contains(p.at))) {
       p.state = Particle::State::Leaving;
       ++census_.leaving;
       continue;
@@ -95,7 +96,7 @@ void Particles::count() {
 
 void Particles::thin_out() {
   for (std::size_t plot = 0; plot < count_.size(); ++plot) {
-    const double most = plots_.plots()[plot].strokes * too_many + 1;
+    const double wanted = plots_.plots()[plot].wanted, most = wanted + many * std::sqrt(wanted) + 1;
     while (count_[plot] > most) {
       // The youngest goes: what has been there long is what the eye follows.
       std::int32_t youngest = -1;
@@ -113,20 +114,10 @@ void Particles::thin_out() {
 
 double Particles::inflow() const {
   double strokes = 0;
-  for (const BorderEdge& edge : surface_.edges()) {
-    if (!edge.open) continue;
-    const double length = glm::distance(edge.a, edge.b);
-    if (!(length > 0)) continue;
-    const glm::dvec2 d = (edge.b - edge.a) / length, inward(-d.y, d.x);
-    constexpr int points = 16;
-    for (int k = 0; k < points; ++k) {
-      const glm::dvec2 p = edge.a + (edge.b - edge.a) * ((k + 0.5) / points);
-      const double in = glm::dot(flow_.velocity(p), inward);
-      const glm::dvec2 inside = p + inward * (1e-3 * length);
-      if (in > 0) strokes += in * options_.seconds_per_frame * (length / points) * plots_.per_m2(inside);
-    }
+  for (const Plots::Rim& rim : plots_.rim()) {
+    strokes += std::max(0.0, glm::dot(flow_.velocity(rim.at), rim.inwards)) * rim.per_m2;
   }
-  return strokes;
+  return strokes * options_.seconds_per_frame;
 }
 
 void Particles::fill_up() {
@@ -139,11 +130,11 @@ void Particles::fill_up() {
   if (n == 0) return;
   // The emptiest first; plots take turns in being asked first.
   const std::size_t begin = static_cast<std::size_t>(frame_) * 7919 % n;
-  for (const double below : {0.3, too_few}) {
+  for (const double deviations : {very_few, few}) {
     for (std::size_t k = 0; k < n && allowance_ >= 1; ++k) {
       const std::size_t plot = (begin + k) % n;
-      const int strokes = plots_.plots()[plot].strokes;
-      while (count_[plot] < strokes && count_[plot] < std::max(strokes * below, 0.5) && allowance_ >= 1) {
+      const double least = fewest(plots_.plots()[plot].wanted, deviations);
+      while (count_[plot] < least && allowance_ >= 1) {
         if (!bear(static_cast<int>(plot), 0)) break;
         allowance_ -= 1;
         ++census_.births;
@@ -164,10 +155,10 @@ bool Particles::bear(int plot, float opacity) {
   constexpr int tries = 24, choices = 5;
   for (int i = 0, found = 0; i < tries && found < choices; ++i) {
     const glm::dvec2 p =
-        square.least + square.side_m * glm::dvec2(scattered(born_, 2 * i), scattered(born_, 2 * i + 1));
-    if (!surface_.contains(p)) continue;
+        square.least + square.size_m * glm::dvec2(scattered(born_, 2 * i), scattered(born_, 2 * i + 1));
+    if (plots_.find(p) != plot || !surface_.contains(p)) continue;
     ++found;
-    double room = square.side_m;
+    double room = glm::length(square.size_m);
     for (std::int32_t k = first_[plot]; k >= 0; k = next_[k]) room = std::min(room, glm::distance(list_[k].at, p));
     if (room > most) best = p, most = room;
   }

@@ -6,82 +6,101 @@
 namespace rinkaku::water {
 namespace {
 
-constexpr int levels = 8;  // 256 steps along the side
-constexpr int steps = 1 << levels;
-constexpr double handful = 8;
+constexpr int steps = 256;  // along the side
+constexpr double handful = 12;
+
+std::size_t corner(int x, int y) { return static_cast<std::size_t>(y) * (steps + 1) + x; }
 
 }  // namespace
 
 Plots::Plots(const Surface& surface, const StrokeDensity& density, int strokes) : least_(surface.least()) {
   const glm::dvec2 span = surface.most() - surface.least();
   step_m_ = std::max(span.x, span.y) / steps;
-  // Strokes wanted in each square of each level, coarsest first.
-  std::vector<std::vector<float>> wanted(levels + 1);
-  for (int l = 0; l <= levels; ++l) wanted[l].assign(std::size_t{1} << (2 * l), 0.0f);
+  std::vector<float> wanted(static_cast<std::size_t>(steps) * steps);
+  plot_of_step_.assign(wanted.size(), none);
   double sum = 0;
   for (int y = 0; y < steps; ++y) {
     for (int x = 0; x < steps; ++x) {
       const glm::dvec2 p = least_ + (glm::dvec2(x, y) + 0.5) * step_m_;
-      if (!surface.contains(p)) continue;
       const double d = density.at(p);
-      wanted[levels][static_cast<std::size_t>(y) * steps + x] = static_cast<float>(d);
+      const std::size_t i = static_cast<std::size_t>(y) * steps + x;
+      plot_of_step_[i] = d > 0 ? none : unseen;
+      if (!surface.contains(p)) continue;
+      wanted[i] = static_cast<float>(d);
       sum += d;
     }
   }
-  plot_of_step_.assign(static_cast<std::size_t>(steps) * steps, -1);
-  per_m2_.assign(plot_of_step_.size(), 0);
   if (!(sum > 0)) return;
-  for (float& w : wanted[levels]) w = static_cast<float>(w * strokes / sum);
-  for (std::size_t i = 0; i < per_m2_.size(); ++i) {
-    per_m2_[i] = static_cast<float>(wanted[levels][i] / (step_m_ * step_m_));
-  }
-  for (int l = levels; l > 0; --l) {
-    const int side = 1 << l;
-    for (int y = 0; y < side; ++y) {
-      for (int x = 0; x < side; ++x) {
-        wanted[l - 1][static_cast<std::size_t>(y / 2) * (side / 2) + x / 2] +=
-            wanted[l][static_cast<std::size_t>(y) * side + x];
-      }
+  for (float& w : wanted) w = static_cast<float>(w * strokes / sum);
+  find_rim(surface, wanted);
+  // What is wanted left of and above each corner.
+  std::vector<double> sums(static_cast<std::size_t>(steps + 1) * (steps + 1), 0.0);
+  for (int y = 0; y < steps; ++y) {
+    for (int x = 0; x < steps; ++x) {
+      sums[corner(x + 1, y + 1)] = sums[corner(x, y + 1)] + sums[corner(x + 1, y)] - sums[corner(x, y)] +
+                                   wanted[static_cast<std::size_t>(y) * steps + x];
     }
   }
   double carry = 0.5;
-  divide(0, 0, 0, wanted, carry);
+  divide({0, 0, steps, steps}, sums, carry);
 }
 
-void Plots::divide(int level, int x, int y, std::span<const std::vector<float>> wanted, double& carry) {
-  const int side = 1 << level;
-  const double w = wanted[level][static_cast<std::size_t>(y) * side + x];
-  if (!(w > 0)) return;
-  if (w > handful && level < levels) {
-    for (int i = 0; i < 4; ++i) divide(level + 1, 2 * x + i % 2, 2 * y + i / 2, wanted, carry);
+void Plots::divide(const Box& box, const std::vector<double>& sums, double& carry) {
+  const double w = sums[corner(box.right, box.bottom)] - sums[corner(box.left, box.bottom)] -
+                   sums[corner(box.right, box.top)] + sums[corner(box.left, box.top)];
+  if (!(w > 1e-9)) return;
+  const int wide = box.right - box.left, high = box.bottom - box.top;
+  if (w > handful && (wide > 1 || high > 1)) {
+    Box first = box, second = box;
+    if (wide >= high) {
+      first.right = second.left = box.left + wide / 2;
+    } else {
+      first.bottom = second.top = box.top + high / 2;
+    }
+    divide(first, sums, carry);
+    divide(second, sums, carry);
     return;
   }
-  const int span = steps / side;
   Plot plot;
-  plot.least = least_ + glm::dvec2(x, y) * (span * step_m_);
-  plot.side_m = span * step_m_;
+  plot.least = least_ + glm::dvec2(box.left, box.top) * step_m_;
+  plot.size_m = glm::dvec2(wide, high) * step_m_;
   plot.wanted = w;
   carry += w;
   plot.strokes = static_cast<int>(carry);
   carry -= plot.strokes;
-  for (int j = y * span; j < (y + 1) * span; ++j) {
-    for (int i = x * span; i < (x + 1) * span; ++i) {
-      plot_of_step_[static_cast<std::size_t>(j) * steps + i] = static_cast<std::int32_t>(plots_.size());
+  for (int j = box.top; j < box.bottom; ++j) {
+    for (int i = box.left; i < box.right; ++i) {
+      std::int32_t& at = plot_of_step_[static_cast<std::size_t>(j) * steps + i];
+      if (at != unseen) at = static_cast<std::int32_t>(plots_.size());
     }
   }
   plots_.push_back(plot);
 }
 
-int Plots::find(glm::dvec2 p) const {
-  const glm::dvec2 s = (p - least_) / step_m_;
-  if (!(s.x >= 0 && s.y >= 0 && s.x < steps && s.y < steps)) return -1;
-  return plot_of_step_[static_cast<std::size_t>(s.y) * steps + static_cast<std::size_t>(s.x)];
+void Plots::find_rim(const Surface& surface, const std::vector<float>& wanted) {
+  const auto at = [&](int x, int y) {
+    return x < 0 || y < 0 || x >= steps || y >= steps ? 0.0f : wanted[static_cast<std::size_t>(y) * steps + x];
+  };
+  for (int y = 0; y < steps; ++y) {
+    for (int x = 0; x < steps; ++x) {
+      const double w = at(x, y);
+      if (!(w > 0)) continue;
+      const glm::dvec2 middle = least_ + (glm::dvec2(x, y) + 0.5) * step_m_;
+      for (const glm::dvec2 out : {glm::dvec2(1, 0), glm::dvec2(-1, 0), glm::dvec2(0, 1), glm::dvec2(0, -1)}) {
+        if (at(x + static_cast<int>(out.x), y + static_cast<int>(out.y)) > 0) continue;
+        // Nothing flows in over a shore.
+        const glm::dvec2 across = middle + out * (1.5 * step_m_);
+        if (surface.crossed_shore(middle, across).found) continue;
+        rim_.push_back({middle + out * (step_m_ / 2), -out * step_m_, w / (step_m_ * step_m_)});
+      }
+    }
+  }
 }
 
-double Plots::per_m2(glm::dvec2 p) const {
+int Plots::find(glm::dvec2 p) const {
   const glm::dvec2 s = (p - least_) / step_m_;
-  if (!(s.x >= 0 && s.y >= 0 && s.x < steps && s.y < steps)) return 0;
-  return per_m2_[static_cast<std::size_t>(s.y) * steps + static_cast<std::size_t>(s.x)];
+  if (!(s.x >= 0 && s.y >= 0 && s.x < steps && s.y < steps)) return none;
+  return plot_of_step_[static_cast<std::size_t>(s.y) * steps + static_cast<std::size_t>(s.x)];
 }
 
 }  // namespace rinkaku::water

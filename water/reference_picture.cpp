@@ -100,7 +100,7 @@ void ReferencePicture::paint(const Surface& surface, const CameraModel& camera, 
         seen = glm::vec3(object) + seen * (1 - object.a);
       }
       const double grazing = 1 - std::min(falls, 1.0);
-      const auto share = static_cast<float>(options.reflection * (0.2 + 0.8 * grazing * grazing * grazing));
+      const auto share = static_cast<float>(options.reflection * (0.35 + 0.65 * grazing * grazing));
       samples_[static_cast<std::size_t>(j) * width_px_ + i] =
           glm::clamp(glm::mix(options.water_colour, seen * static_cast<float>(options.gain), share), 0.0f, 1.0f);
     }

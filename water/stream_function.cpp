@@ -24,10 +24,8 @@ constexpr double shore_weight = 300;
 // Just enough to settle what no water reaches.
 constexpr double smooth_weight = 1e-4, least_weight = 1e-9;
 
-// A linear form in the sixteen coefficients around a cell.
-using Form = std::array<double, 16>;
-Form along(const Basis& bx, const Basis& by, glm::dvec2 direction) {
-  Form form;
+std::array<double, 16> along(const Basis& bx, const Basis& by, glm::dvec2 direction) {
+  std::array<double, 16> form;
   for (int y = 0; y < 4; ++y) {
     for (int x = 0; x < 4; ++x) {
       form[y * 4 + x] = direction.x * bx.value[x] * by.slope[y] - direction.y * bx.slope[x] * by.value[y];
@@ -38,12 +36,15 @@ Form along(const Basis& bx, const Basis& by, glm::dvec2 direction) {
 
 }  // namespace
 
-StreamFunction::StreamFunction(const Surface& surface, const FlowGrid& grid)
+StreamFunction::StreamFunction(const Surface& surface, const FlowGrid& grid, std::span<const Segment> bodies)
     : grid_(grid), by_columns_(grid.rows > grid.columns) {
   const std::size_t wide = grid.columns + 3, high = grid.rows + 3;
   equations_ = BandedCholesky(wide * high, 3 * std::min(wide, high) + 3);
   add_water(surface);
-  add_shores(surface);
+  for (const BorderEdge& e : surface.edges()) {
+    if (!e.open) add_shore(e.a, e.b);
+  }
+  for (const Segment& s : bodies) add_shore(s.a, s.b);
   add_smoothness();
   equations_.factorise();
   solved_.resize(wide * high);
@@ -53,6 +54,15 @@ StreamFunction::StreamFunction(const Surface& surface, const FlowGrid& grid)
 std::size_t StreamFunction::unknown(int x, int y) const {
   return by_columns_ ? static_cast<std::size_t>(y) * (grid_.columns + 3) + x
                      : static_cast<std::size_t>(x) * (grid_.rows + 3) + y;
+}
+
+void StreamFunction::add_form(const FlowGrid::Cell& c, const Form& form, double weight) {
+  for (int i = 0; i < 16; ++i) {
+    for (int j = 0; j < 16; ++j) {
+      const std::size_t row = unknown(c.x + i % 4, c.y + i / 4), column = unknown(c.x + j % 4, c.y + j / 4);
+      if (column <= row) equations_.add(row, column, weight * form[i] * form[j]);
+    }
+  }
 }
 
 void StreamFunction::add_water(const Surface& surface) {
@@ -75,33 +85,20 @@ void StreamFunction::add_water(const Surface& surface) {
     const Basis bx = basis(c.fx), by = basis(c.fy);
     for (const glm::dvec2 direction : {glm::dvec2(1, 0), glm::dvec2(0, 1)}) {
       const Form form = along(bx, by, direction);
-      for (int i = 0; i < 16; ++i) {
-        for (int j = 0; j < 16; ++j) {
-          const std::size_t row = unknown(c.x + i % 4, c.y + i / 4), column = unknown(c.x + j % 4, c.y + j / 4);
-          if (column <= row) equations_.add(row, column, s.weight * form[i] * form[j]);
-        }
-      }
+      add_form(c, form, s.weight);
     }
   }
 }
 
-void StreamFunction::add_shores(const Surface& surface) {
-  for (const BorderEdge& edge : surface.edges()) {
-    const double length = glm::distance(edge.a, edge.b);
-    if (edge.open || !(length > 0)) continue;
-    const int points = std::max(2, static_cast<int>(std::ceil(3 * length / grid_.cell_m)));
-    const glm::dvec2 d = (edge.b - edge.a) / length, across(d.y, -d.x);
-    const double weight = shore_weight * length / grid_.cell_m / points;
-    for (int k = 0; k < points; ++k) {
-      const FlowGrid::Cell c = grid_.cell_of(edge.a + (edge.b - edge.a) * ((k + 0.5) / points));
-      const Form form = along(basis(c.fx), basis(c.fy), across);
-      for (int i = 0; i < 16; ++i) {
-        for (int j = 0; j < 16; ++j) {
-          const std::size_t row = unknown(c.x + i % 4, c.y + i / 4), column = unknown(c.x + j % 4, c.y + j / 4);
-          if (column <= row) equations_.add(row, column, weight * form[i] * form[j]);
-        }
-      }
-    }
+void StreamFunction::add_shore(glm::dvec2 a, glm::dvec2 b) {
+  const double length = glm::distance(a, b);
+  if (!(length > 0)) return;
+  const int points = std::max(1, static_cast<int>(std::ceil(3 * length / grid_.cell_m)));
+  const glm::dvec2 d = (b - a) / length, across(d.y, -d.x);
+  const double weight = shore_weight * length / grid_.cell_m / points;
+  for (int k = 0; k < points; ++k) {
+    const FlowGrid::Cell c = grid_.cell_of(a + (b - a) * ((k + 0.5) / points));
+    add_form(c, along(basis(c.fx), basis(c.fy), across), weight);
   }
 }
 
@@ -143,13 +140,14 @@ glm::dvec2 StreamFunction::velocity(glm::dvec2 p) const {
   const FlowGrid::Cell c = grid_.cell_of(p);
   const Basis bx = basis(c.fx), by = basis(c.fy);
   const float* from = coefficients_.data() + static_cast<std::size_t>(c.y) * (grid_.columns + 3) + c.x;
-  double u = 0, v = 0;
-  for (int y = 0; y < 4; ++y, from += grid_.columns + 3) {
-    const double value = bx.value[0] * from[0] + bx.value[1] * from[1] + bx.value[2] * from[2] + bx.value[3] * from[3];
-    const double slope = bx.slope[0] * from[0] + bx.slope[1] * from[1] + bx.slope[2] * from[2] + bx.slope[3] * from[3];
-    u += by.slope[y] * value;
-    v -= by.value[y] * slope;
+  // Sums over each column first: four side by side.
+  std::array<float, 4> slopes{}, values{};
+  for (std::size_t y = 0; y < 4; ++y, from += grid_.columns + 3) {
+    const auto slope = static_cast<float>(by.slope[y]), value = static_cast<float>(by.value[y]);
+    for (std::size_t x = 0; x < 4; ++x) slopes[x] += slope * from[x], values[x] += value * from[x];
   }
+  double u = 0, v = 0;
+  for (std::size_t x = 0; x < 4; ++x) u += bx.value[x] * slopes[x], v -= bx.slope[x] * values[x];
   return {u, v};
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <span>
 #include <vector>
 
@@ -7,6 +8,7 @@
 
 #include "water/banded_cholesky.h"
 #include "water/flow_grid.h"
+#include "water/section.h"
 #include "water/surface.h"
 
 namespace rinkaku::water {
@@ -20,7 +22,8 @@ namespace rinkaku::water {
 /// wish costs a solution.
 class StreamFunction {
  public:
-  StreamFunction(const Surface& surface, const FlowGrid& grid);
+  /// `bodies`: lines of things in the water, which the flow doesn't cross either.
+  StreamFunction(const Surface& surface, const FlowGrid& grid, std::span<const Segment> bodies = {});
 
   /// `wish`: metres a second at the grid's nodes, taken as bilinear between them. No allocation once warm.
   void fit(const std::vector<glm::dvec2>& wish);
@@ -34,8 +37,10 @@ class StreamFunction {
     double weight;
   };
   std::size_t unknown(int x, int y) const;
+  using Form = std::array<double, 16>;  // linear in the coefficients around a cell
+  void add_form(const FlowGrid::Cell& cell, const Form& form, double weight);
   void add_water(const Surface& surface);
-  void add_shores(const Surface& surface);
+  void add_shore(glm::dvec2 a, glm::dvec2 b);
   void add_smoothness();
 
   FlowGrid grid_;

@@ -165,7 +165,7 @@ toml::Schema water_schema() {
       {.path = "water.stroke", .keys = {"length_m", "width", "width_px", "opacity", "foreshortening", "variety"}},
       {.path = "water.flow", .keys = {"method", "alpha_m", "cells"}},
       {.path = "water.mirror", .keys = {"plate", "surroundings_m", "reflection", "zenith", "horizon", "panorama"}},
-      {.path = "water.colours", .keys = {"method", "key_frames", "ripple"}},
+      {.path = "water.colours", .keys = {"method", "key_frames", "ripple", "mean"}},
       {.path = "water.waterline", .keys = {"colour"}},
       {.path = "water.surface",
        .keys = {"outline_m", "open", "obstacles_m", "alpha_m", "colour", "arrow"},
@@ -195,9 +195,10 @@ WaterScene read_water(const Table& water) {
   if (const auto colours = water.table("colours")) {
     scene.colours =
         read_choice<WaterScene::Colours>(
-            *colours, "method", {{"keys", WaterScene::Colours::Keys}, {"followed", WaterScene::Colours::Followed}})
+            *colours, "method", {{"keys", WaterScene::Colours::Keys}, {"followed", WaterScene::Colours::Followed}, {"sampled", WaterScene::Colours::Sampled}})
             .value_or(scene.colours);
     scene.key_frames = static_cast<int>(colours->integer("key_frames", 1, 1000).value_or(scene.key_frames));
+    scene.mean = colours->flag("mean").value_or(scene.mean);
     scene.ripple = colours->number("ripple", {0, 10}).value_or(scene.ripple);
   }
   if (const auto waterline = water.table_unless_flag("waterline")) {

@@ -78,9 +78,10 @@ struct WaterScene {
   std::filesystem::path panorama;  ///< empty: a gradient
 
   // colours = { ... }
-  enum class Colours { ByCamera, Keys, Followed } colours = Colours::ByCamera;
+  enum class Colours { ByCamera, Keys, Followed, Sampled } colours = Colours::ByCamera;
   int key_frames = 15;
-  double ripple = 0.6;
+  double ripple = 0.4;
+  bool mean = true;
 
   // waterline = { ... }
   bool waterline = true;
