@@ -53,13 +53,12 @@ struct River {
     outline.corners = {{-6, 1.5, 0}, {6, 1.5, 0}, {8, 5, 0}, {9, 9, 0}, {2, 8.2, 0}, {-3, 9.4, 0}, {-9, 9, 0}};
     outline.open_edges = {2, 6, 1};
     surface = std::make_unique<Surface>("bench", outline, glm::dvec3(0, 0, 3));
-    const double px[12][4] = {{30, 330, 90, 335},  {150, 340, 215, 330}, {280, 345, 350, 360}, {60, 240, 110, 250},
+    const double px[12][4] = {{30, 330, 90, 335},   {150, 340, 215, 330}, {280, 345, 350, 360}, {60, 240, 110, 250},
                               {170, 260, 225, 240}, {290, 240, 345, 255}, {40, 160, 70, 165},   {130, 150, 165, 140},
                               {220, 165, 255, 160}, {320, 150, 350, 160}, {100, 100, 118, 98},  {280, 98, 300, 102}};
     ArrowKey key;
     for (const auto& a : px) {
-      key.arrows.push_back(
-          arrow_from_screen("bench", *surface, camera, camera_from_world, {a[0], a[1]}, {a[2], a[3]}));
+      key.arrows.push_back(arrow_from_screen("bench", *surface, camera, camera_from_world, {a[0], a[1]}, {a[2], a[3]}));
     }
     arrows.push_back(key);
   }
@@ -157,9 +156,10 @@ void times(const River& river, const ReferencePicture& reference) {
       }
       drawn = strokes.size();
     }
-    std::printf("%6d strokes (%6zu in the picture): set-up %.0f ms, painting %.2f ms a frame, drawing %.2f ms (CPU %.2f); "
-                "120 frames prepared in %.0f ms\n",
-                count, drawn, made, median(paint), median(draw), median(draw_cpu), made + prepared);
+    std::printf(
+        "%6d strokes (%6zu in the picture): set-up %.0f ms, painting %.2f ms a frame, drawing %.2f ms (CPU %.2f); "
+        "120 frames prepared in %.0f ms\n",
+        count, drawn, made, median(paint), median(draw), median(draw_cpu), made + prepared);
   }
   std::vector<float> depths;
   for (std::uint64_t i = 0; i < 100000; ++i) depths.push_back(static_cast<float>(3 + 27 * scattered(i, 1)));
@@ -203,11 +203,12 @@ void flow(const River& river) {
       }
     }
     const Deviation d = flow.deviation();
-    std::printf("%s: |div|/|grad| %.4f, most across a shore %.3f of the mean speed, from the arrows %.1f degrees (mean), "
-                "%.1f (most), speed %.2f\n",
-                method == FlowOptions::Method::Arrows ? "arrows" : "divergence-free", std::sqrt(divergence / gradient),
-                most_across / (speed / samples), d.mean_rad * 180 / std::numbers::pi,
-                d.largest_rad * 180 / std::numbers::pi, d.speed_ratio);
+    std::printf(
+        "%s: |div|/|grad| %.4f, most across a shore %.3f of the mean speed, from the arrows %.1f degrees (mean), "
+        "%.1f (most), speed %.2f\n",
+        method == FlowOptions::Method::Arrows ? "arrows" : "divergence-free", std::sqrt(divergence / gradient),
+        most_across / (speed / samples), d.mean_rad * 180 / std::numbers::pi, d.largest_rad * 180 / std::numbers::pi,
+        d.speed_ratio);
   }
 }
 
@@ -243,13 +244,14 @@ void coverage(const River& river, const ReferencePicture& reference) {
     const Particles& particles = painter.painting.particles();
     const Census& census = particles.census();
     if (frame > 0) {
-      most_births = std::max(most_births, (static_cast<double>(census.births) - census.flowed_in) /
-                                              static_cast<double>(census.alive));
+      most_births = std::max(
+          most_births, (static_cast<double>(census.births) - census.flowed_in) / static_cast<double>(census.alive));
     }
     for (std::size_t i = 0; i < opacity.size(); ++i) {
       const Particle& p = particles.list()[i];
       const bool there = p.state != Particle::State::Free;
-      const float now = there ? p.opacity : 0, before = opacity[i] >= 0 && (!there || serial[i] == p.serial) ? opacity[i] : 0;
+      const float now = there ? p.opacity : 0,
+                  before = opacity[i] >= 0 && (!there || serial[i] == p.serial) ? opacity[i] : 0;
       if (frame > 0) most_change = std::max(most_change, static_cast<double>(std::abs(now - before)));
       opacity[i] = now, serial[i] = p.serial;
     }
@@ -258,9 +260,10 @@ void coverage(const River& river, const ReferencePicture& reference) {
                   census.alive, census.leaving, census.births, census.flowed_in);
     }
   }
-  std::printf("1,000 frames: bare water %.3f %% (mean), %.3f %% (worst frame); births beyond inflow at most %.2f %% a frame; "
-              "opacity changes at most %.3f a frame\n",
-              100 * mean, 100 * worst, 100 * most_births, most_change);
+  std::printf(
+      "1,000 frames: bare water %.3f %% (mean), %.3f %% (worst frame); births beyond inflow at most %.2f %% a frame; "
+      "opacity changes at most %.3f a frame\n",
+      100 * mean, 100 * worst, 100 * most_births, most_change);
 }
 
 // Mean squared difference between a frame and the next one carried back along the flow (Lai et al. 2018), and the
@@ -299,7 +302,7 @@ Flicker flicker(const River& river, const ReferencePicture& reference, const Pai
         const std::uint8_t* s = layer.rgba.data() + (static_cast<std::size_t>(y) * layer.rect.width_px + x) * 4;
         now[(y + layer.rect.y_px) * 400 + x + layer.rect.x_px] =
             glm::vec3(s[0], s[1], s[2]) / 255.0f + 0.5f * (1 - s[3] / 255.0f);
-        }
+      }
     }
     if (frame > 60) {
       double sum = 0;
@@ -335,11 +338,12 @@ void flicker(const River& river, const ReferencePicture& reference) {
     bool mean;
   };
   double first = 0;
-  for (const Kind& kind : {Kind{"user's field, point-sampled", FlowOptions::Method::Arrows, Colours::Sampled, false},
-                           Kind{"divergence-free, point-sampled", FlowOptions::Method::DivergenceFree, Colours::Sampled, false},
-                           Kind{"divergence-free, neighbourhood mean", FlowOptions::Method::DivergenceFree, Colours::Sampled, true},
-                           Kind{"divergence-free, mean, causal filter", FlowOptions::Method::DivergenceFree, Colours::Followed, true},
-                           Kind{"divergence-free, mean, B-spline keys", FlowOptions::Method::DivergenceFree, Colours::Keys, true}}) {
+  for (const Kind& kind :
+       {Kind{"user's field, point-sampled", FlowOptions::Method::Arrows, Colours::Sampled, false},
+        Kind{"divergence-free, point-sampled", FlowOptions::Method::DivergenceFree, Colours::Sampled, false},
+        Kind{"divergence-free, neighbourhood mean", FlowOptions::Method::DivergenceFree, Colours::Sampled, true},
+        Kind{"divergence-free, mean, causal filter", FlowOptions::Method::DivergenceFree, Colours::Followed, true},
+        Kind{"divergence-free, mean, B-spline keys", FlowOptions::Method::DivergenceFree, Colours::Keys, true}}) {
     PaintingOptions options;
     options.flow.method = kind.method;
     options.colours = kind.colours;

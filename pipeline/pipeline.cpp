@@ -72,8 +72,7 @@ RenderReport render(const Prepared& prepared, const RenderOptions& options, cons
         make_drawing(scene, lens ? lens->pinhole_rect() : passes::PixelRect{0, 0, result.width_px, result.height_px}));
     result.notices.insert(result.notices.end(), drawing->notices.begin(), drawing->notices.end());
     if (plan.runs("water")) {
-      water.emplace(scene, *prepared.camera, frames_per_s(described), drawing->solids,
-                    *drawing->renderer);
+      water.emplace(scene, *prepared.camera, frames_per_s(described), drawing->solids, *drawing->renderer);
       result.notices.insert(result.notices.end(), water->notices().begin(), water->notices().end());
       line.add(Group::Draw, "water", [&](Work& work) {
         if (work.pose && work.pose->opacity > 0) water->look(work.frame, work.pose->camera_from_world);

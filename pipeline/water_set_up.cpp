@@ -89,10 +89,18 @@ water::PaintingOptions painting_options(const WaterScene& water, const WaterSurf
   o.seconds_per_frame = 1 / frames_per_s;
   using Colours = water::PaintingOptions::Colours;
   switch (water.colours) {
-    case WaterScene::Colours::Keys: o.colours = Colours::Keys; break;
-    case WaterScene::Colours::Followed: o.colours = Colours::Followed; break;
-    case WaterScene::Colours::Sampled: o.colours = Colours::Sampled; break;
-    case WaterScene::Colours::ByCamera: o.colours = camera_still ? Colours::Keys : Colours::Followed; break;
+    case WaterScene::Colours::Keys:
+      o.colours = Colours::Keys;
+      break;
+    case WaterScene::Colours::Followed:
+      o.colours = Colours::Followed;
+      break;
+    case WaterScene::Colours::Sampled:
+      o.colours = Colours::Sampled;
+      break;
+    case WaterScene::Colours::ByCamera:
+      o.colours = camera_still ? Colours::Keys : Colours::Followed;
+      break;
   }
   o.mean = water.mean;
   o.flow.method = water.flow == WaterScene::Flow::Arrows ? water::FlowOptions::Method::Arrows

@@ -146,8 +146,7 @@ WaterStage::WaterStage(const Scene& scene, const CameraModel& camera, double fra
     sum += sizes.back();
   }
   for (std::size_t i = 0; i < water.surfaces.size(); ++i) {
-    parts_->add_surface(water, water.surfaces[i], poses, frames_per_s, solids,
-                        sum > 0 ? sizes[i] / sum : 1);
+    parts_->add_surface(water, water.surfaces[i], poses, frames_per_s, solids, sum > 0 ? sizes[i] / sum : 1);
   }
   for (const WaterSprayScene& s : water.sprays) {
     parts_->sprays.push_back({s.from_m, s.to_m, s.drops, s.height_m, s.size_m, s.colour, frames_per_s});

@@ -18,8 +18,8 @@ namespace rinkaku::pipeline {
 /// the mirrored objects, and hands them to its pass in the renderer. Lives on the thread of the GL context.
 class WaterStage {
  public:
-  /// Adds its pass to `renderer`, which must outlive the stage. `solids` stand in the water; `frames_per_s` of the plate.
-  /// Throws Error (Input), with the scene's line, for what can't be painted.
+  /// Adds its pass to `renderer`, which must outlive the stage. `solids` stand in the water; `frames_per_s` of the
+  /// plate. Throws Error (Input), with the scene's line, for what can't be painted.
   WaterStage(const Scene& scene, const CameraModel& camera, double frames_per_s, std::span<const water::Solid> solids,
              passes::LayerRenderer& renderer);
   ~WaterStage();

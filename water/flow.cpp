@@ -17,7 +17,7 @@ FlowGrid::FlowGrid(const Surface& surface, int cells) {
 
 Flow::Flow(const Surface& surface, std::vector<ArrowKey> keys, const FlowOptions& options,
            std::span<const Segment> bodies)
-    : keys_(std::move(keys)), grid_(surface, options.cells) {
+    : surface_(&surface), keys_(std::move(keys)), grid_(surface, options.cells) {
   alpha_m_ = options.alpha_m > 0 ? options.alpha_m : glm::distance(surface.least(), surface.most()) / 8;
   for (const ArrowKey& key : keys_) {
     for (const Arrow& a : key.arrows) still_ = still_ && glm::length(a.velocity) <= 0;
@@ -54,7 +54,7 @@ Deviation Flow::deviation() const {
   std::size_t counted = 0;
   for (std::size_t i = 0; i < arrows_.size(); ++i) {
     const glm::dvec2 a = arrows_[i].velocity, v = velocity(arrows_[i].at);
-    if (!(glm::length(a) > 0)) continue;
+    if (!(glm::length(a) > 0) || !surface_->contains(arrows_[i].at)) continue;
     const double angle = std::abs(std::atan2(a.x * v.y - a.y * v.x, glm::dot(a, v)));
     if (angle > d.largest_rad) d.largest_rad = angle, d.worst = i;
     d.mean_rad += angle;

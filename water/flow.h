@@ -20,7 +20,7 @@ struct FlowOptions {
   int cells = 48;      ///< of the grid, along the longer side
 };
 
-/// How the flow of a surface differs from the arrows at their places.
+/// How the flow of a surface differs from the arrows that lie in it.
 struct Deviation {
   double mean_rad = 0;  ///< of the direction
   double largest_rad = 0;
@@ -52,6 +52,7 @@ class Flow {
   const std::vector<Arrow>& arrows() const { return arrows_; }
 
  private:
+  const Surface* surface_;
   std::vector<ArrowKey> keys_;
   FlowGrid grid_;
   double alpha_m_;

@@ -44,7 +44,8 @@ Painting::Painting(const Surface& surface, std::vector<ArrowKey> arrows, std::ve
                    const std::optional<Outlook>& outlook, const PaintingOptions& options)
     : surface_(surface),
       arrows_(std::move(arrows)),
-      bodies_(std::move(bodies)), options_(settled(surface, outlook, options)) {
+      bodies_(std::move(bodies)),
+      options_(settled(surface, outlook, options)) {
   plots_.emplace(surface, StrokeDensity(surface, outlook, options_.size), options_.strokes);
   restart();
 }

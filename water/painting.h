@@ -23,14 +23,14 @@ namespace rinkaku::water {
 struct PaintingOptions {
   int strokes = 7000;
   StrokeSize size;  ///< a length of 0 is chosen so that strokes lie `layers` deep
-  double layers = 7;
+  double layers = 6.5;
   double foreshortening = 0.5;  ///< 0: length as equation 4 has it; 1: shorter where the stroke leads away from the eye
   double seconds_per_frame = 1.0 / 25;
   double opacity = 0.9;   ///< of a stroke
   double ripple = 0.4;    ///< how far from its place a stroke looks for its colour, in its own lengths
   double variety = 0.05;  ///< by how much a stroke may be lighter or darker than its colour
   enum class Colours {
-    Keys,     ///< at key frames ahead and behind, with a B-spline between: for a camera that stands still
+    Keys,      ///< at key frames ahead and behind, with a B-spline between: for a camera that stands still
     Followed,  ///< from what was seen up to now
     Sampled    ///< of this frame alone: they flicker; to compare with
   } colours = Colours::Keys;
@@ -46,8 +46,8 @@ using MakeReference = std::function<const ReferencePicture&()>;
 /// (Suzuki et al. 2004; after Meier 1996.) GL-free; one thread.
 class Painting {
  public:
-  /// `surface` must outlive it. `bodies`: what stands in it. `outlook`: where a camera stands that doesn't move; without one strokes are spread
-  /// evenly over the surface.
+  /// `surface` must outlive it. `bodies`: what stands in it. `outlook`: where a camera stands that doesn't move;
+  /// without one strokes are spread evenly over the surface.
   Painting(const Surface& surface, std::vector<ArrowKey> arrows, std::vector<Segment> bodies,
            const std::optional<Outlook>& outlook, const PaintingOptions& options);
 

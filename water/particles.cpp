@@ -11,8 +11,8 @@
 namespace rinkaku::water {
 namespace {
 
-// Strokes that drift freely scatter by the square root of what is wanted. Only a plot that is emptier or fuller than that
-// by these factors is seen to, so that few have to come and go.
+// Strokes that drift freely scatter by the square root of what is wanted. Only a plot that is emptier or fuller than
+// that by these factors is seen to, so that few have to come and go.
 double fewest(double wanted, double deviations) { return wanted - deviations * std::sqrt(wanted); }
 constexpr double few = 1.0, very_few = 1.8, many = 1.5;
 

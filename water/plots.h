@@ -32,8 +32,8 @@ class Plots {
   /// Pieces of the line around all plots, where strokes flow in from where they weren't wanted.
   struct Rim {
     glm::dvec2 at{0};
-    glm::dvec2 inwards{0};    ///< as long as the piece, metres
-    double per_m2 = 0;        ///< strokes wanted inside
+    glm::dvec2 inwards{0};  ///< as long as the piece, metres
+    double per_m2 = 0;      ///< strokes wanted inside
   };
   std::span<const Rim> rim() const { return rim_; }
 

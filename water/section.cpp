@@ -17,7 +17,8 @@ std::vector<Segment> section(const Solid& solid, const Surface& surface) {
       // A corner on the water counts as above it, so that each line through one is found once.
       if ((height_m[a] >= 0) == (height_m[b] >= 0)) continue;
       const double s = height_m[a] / (height_m[a] - height_m[b]);
-      cuts[count++] = surface.from_world(glm::dvec3(solid.positions_m[a]) * (1 - s) + glm::dvec3(solid.positions_m[b]) * s);
+      cuts[count++] =
+          surface.from_world(glm::dvec3(solid.positions_m[a]) * (1 - s) + glm::dvec3(solid.positions_m[b]) * s);
     }
     if (count == 2 && surface.contains((cuts[0] + cuts[1]) / 2.0)) segments.push_back({cuts[0], cuts[1]});
   }

@@ -21,8 +21,8 @@ struct Segment {
   glm::dvec2 a{0}, b{0};
 };
 
-/// The line in which a solid cuts a surface, as far as it lies in the water: one segment for each triangle that the plane
-/// passes through. Cost: one look at each vertex and triangle.
+/// The line in which a solid cuts a surface, as far as it lies in the water: one segment for each triangle that the
+/// plane passes through. Cost: one look at each vertex and triangle.
 std::vector<Segment> section(const Solid& solid, const Surface& surface);
 
 }  // namespace rinkaku::water

@@ -10,21 +10,23 @@ namespace rinkaku::water {
 namespace {
 
 // The four cubic B-splines over a cell and their slopes.
+template <typename Real>
 struct Basis {
-  std::array<double, 4> value, slope;
+  std::array<Real, 4> value, slope;
 };
-Basis basis(double f) {
-  const double g = 1 - f;
+template <typename Real>
+inline Basis<Real> basis(Real f) {
+  const Real g = 1 - f;
   return {{g * g * g / 6, (4 - 6 * f * f + 3 * f * f * f) / 6, (4 - 6 * g * g + 3 * g * g * g) / 6, f * f * f / 6},
           {-g * g / 2, (3 * f * f - 4 * f) / 2, (4 * g - 3 * g * g) / 2, f * f / 2}};
 }
 
 // Weight of the flow across a shore, per metre, against that of the water's wish, per cell's area.
-constexpr double shore_weight = 300;
+constexpr double shore_weight = 3e4;
 // Just enough to settle what no water reaches.
 constexpr double smooth_weight = 1e-4, least_weight = 1e-9;
 
-std::array<double, 16> along(const Basis& bx, const Basis& by, glm::dvec2 direction) {
+std::array<double, 16> along(const Basis<double>& bx, const Basis<double>& by, glm::dvec2 direction) {
   std::array<double, 16> form;
   for (int y = 0; y < 4; ++y) {
     for (int x = 0; x < 4; ++x) {
@@ -82,7 +84,7 @@ void StreamFunction::add_water(const Surface& surface) {
     samples_.push_back({(surface.triangles()[0] + surface.triangles()[1] + surface.triangles()[2]) / 3.0, 0.25});
   for (const Sample& s : samples_) {
     const FlowGrid::Cell c = grid_.cell_of(s.at);
-    const Basis bx = basis(c.fx), by = basis(c.fy);
+    const Basis<double> bx = basis(c.fx), by = basis(c.fy);
     for (const glm::dvec2 direction : {glm::dvec2(1, 0), glm::dvec2(0, 1)}) {
       const Form form = along(bx, by, direction);
       add_form(c, form, s.weight);
@@ -138,15 +140,14 @@ void StreamFunction::fit(const std::vector<glm::dvec2>& wish) {
 
 glm::dvec2 StreamFunction::velocity(glm::dvec2 p) const {
   const FlowGrid::Cell c = grid_.cell_of(p);
-  const Basis bx = basis(c.fx), by = basis(c.fy);
+  const auto bx = basis(static_cast<float>(c.fx)), by = basis(static_cast<float>(c.fy));
   const float* from = coefficients_.data() + static_cast<std::size_t>(c.y) * (grid_.columns + 3) + c.x;
   // Sums over each column first: four side by side.
   std::array<float, 4> slopes{}, values{};
   for (std::size_t y = 0; y < 4; ++y, from += grid_.columns + 3) {
-    const auto slope = static_cast<float>(by.slope[y]), value = static_cast<float>(by.value[y]);
-    for (std::size_t x = 0; x < 4; ++x) slopes[x] += slope * from[x], values[x] += value * from[x];
+    for (std::size_t x = 0; x < 4; ++x) slopes[x] += by.slope[y] * from[x], values[x] += by.value[y] * from[x];
   }
-  double u = 0, v = 0;
+  float u = 0, v = 0;
   for (std::size_t x = 0; x < 4; ++x) u += bx.value[x] * slopes[x], v -= bx.slope[x] * values[x];
   return {u, v};
 }

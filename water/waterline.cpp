@@ -15,7 +15,8 @@ namespace {
 
 std::array<std::uint8_t, 4> coded(const std::array<double, 3>& colour, double lighter, double opacity) {
   std::array<std::uint8_t, 4> c{};
-  for (int i = 0; i < 3; ++i) c[i] = static_cast<std::uint8_t>(std::lround(255 * std::clamp(colour[i] + lighter, 0.0, 1.0)));
+  for (int i = 0; i < 3; ++i)
+    c[i] = static_cast<std::uint8_t>(std::lround(255 * std::clamp(colour[i] + lighter, 0.0, 1.0)));
   c[3] = static_cast<std::uint8_t>(std::lround(255 * std::clamp(opacity, 0.0, 1.0)));
   return c;
 }
@@ -78,8 +79,7 @@ void Waterline::add(std::int64_t frame, const CameraModel& camera, const RigidTr
     s.middle_px = to_pixels(camera, n);
     s.half_px = direction / glm::length(direction) * (length / 2);
     s.half_width_px = static_cast<float>(width / 2);
-    s.brush = static_cast<float>((brush_densities - 1) * brush_variants +
-                                 static_cast<int>(random(4) * brush_variants));
+    s.brush = static_cast<float>((brush_densities - 1) * brush_variants + static_cast<int>(random(4) * brush_variants));
     s.depth_m = static_cast<float>(c.z);
     s.colour = coded(options_.colour, 0.06 * (2 * random(5) - 1), 0.45 + 0.3 * random(6) + 0.2 * swell);
     strokes.push_back(s);

@@ -54,7 +54,7 @@ struct WaterBrushScene {
 struct WaterScene {
   std::string where;
   int strokes = 7000;
-  double layers = 7;
+  double layers = 6.5;
   std::array<double, 3> colour{0.16, 0.33, 0.40};
 
   // stroke = { ... }
