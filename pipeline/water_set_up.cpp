@@ -17,7 +17,7 @@ glm::vec3 colour(const std::array<double, 3>& c) { return glm::vec3(c[0], c[1], 
 glm::dvec2 without_lens(const std::string& where, const CameraModel& camera, glm::dvec2 pixel) {
   if (!camera.has_distortion()) return pixel;
   const auto n = undistort(camera, to_normalised(camera, pixel), max_undistorted_radius(camera));
-  if (!n) throw input_error(where, "the arrow lies where the lens shows nothing", "draw it inside the picture");
+  if (!n) throw input_error(where, "it lies where the lens shows nothing", "draw it inside the picture");
   return to_pixels(camera, *n);
 }
 
@@ -79,7 +79,7 @@ water::PaintingOptions painting_options(const WaterScene& water, const WaterSurf
   water::PaintingOptions o;
   o.layers = water.layers;
   o.size.length_m = water.length_m.value_or(0);
-  o.size.width = water.width;
+  o.size.width = water.aspect;
   o.size.width_px = water.width_px.value_or(0);
   o.opacity = water.opacity;
   o.foreshortening = water.foreshortening;
@@ -108,6 +108,34 @@ water::PaintingOptions painting_options(const WaterScene& water, const WaterSurf
   o.flow.alpha_m = surface.alpha_m.value_or(water.alpha_m.value_or(0));
   o.flow.cells = water.cells;
   return o;
+}
+
+std::vector<glm::dvec2> brush_places(const WaterScene& water, const water::Surface& surface, const CameraModel& camera,
+                                     const KnownPoses& poses, double frames_per_s) {
+  std::vector<glm::dvec2> places;
+  for (const WaterBrushScene& brush : water.brushes) {
+    if (!brush.on_screen) {
+      places.push_back(surface.from_world(brush.at_m));
+      continue;
+    }
+    const auto pose = poses.at(0, frames_per_s);
+    if (!pose) {
+      throw input_error(brush.where, "a place on the screen needs the camera's pose of frame 0 beforehand",
+                        "give 'at_m' in the world instead");
+    }
+    const auto seen = water::back_projected(surface, camera, *pose, without_lens(brush.where, camera, brush.at_px));
+    if (!seen.found) {
+      throw input_error(brush.where, "the brush's place lies at or above the water's horizon", "choose a lower one");
+    }
+    places.push_back(seen.at);
+  }
+  return places;
+}
+
+water::BrushSheet read_brushes(const WaterScene& water) {
+  std::vector<water::Picture> pictures;
+  for (const WaterBrushScene& brush : water.brushes) pictures.push_back(read_picture(brush.image, 512, true));
+  return pictures.empty() ? water::BrushSheet{} : water::own_brushes(pictures);
 }
 
 water::MirrorOptions mirror_options(const WaterScene& water) {

@@ -7,6 +7,7 @@
 #include "pipeline/frame/camera_model.h"
 #include "pipeline/frame/rigid_transform.h"
 #include "pipeline/scene/scene.h"
+#include "water/brushes.h"
 #include "water/painting.h"
 #include "water/reference_picture.h"
 #include "water/surface.h"
@@ -39,6 +40,13 @@ std::vector<water::ArrowKey> make_arrows(const WaterSurfaceScene& scene, const w
 
 water::PaintingOptions painting_options(const WaterScene& water, const WaterSurfaceScene& surface, bool camera_still,
                                         double frames_per_s);
+
+/// Where the user's brushes are used on a surface.
+std::vector<glm::dvec2> brush_places(const WaterScene& water, const water::Surface& surface, const CameraModel& camera,
+                                     const KnownPoses& poses, double frames_per_s);
+
+/// The user's brushes; no layers if there are none.
+water::BrushSheet read_brushes(const WaterScene& water);
 
 /// Reads the panorama, if there is one.
 water::MirrorOptions mirror_options(const WaterScene& water);

@@ -69,6 +69,7 @@ void WaterStage::Parts::add_surface(const WaterScene& water, const WaterSurfaceS
   }
   const auto arrows = make_arrows(surface, piece->surface, camera, poses, frames_per_s);
   water::PaintingOptions options = painting_options(water, surface, poses.still(), frames_per_s);
+  options.brush_places = brush_places(water, piece->surface, camera, poses, frames_per_s);
   options.strokes = std::max(1, static_cast<int>(std::lround(water.strokes * share)));
   using Colours = water::PaintingOptions::Colours;
   piece->followed = options.colours == Colours::Followed;
@@ -151,7 +152,7 @@ WaterStage::WaterStage(const Scene& scene, const CameraModel& camera, double fra
   for (const WaterSprayScene& s : water.sprays) {
     parts_->sprays.push_back({s.from_m, s.to_m, s.drops, s.height_m, s.size_m, s.colour, frames_per_s});
   }
-  auto pass = std::make_unique<water::WaterPass>(water::line_brushes(), water::drop_brushes());
+  auto pass = std::make_unique<water::WaterPass>(water::line_brushes(), water::drop_brushes(), read_brushes(water));
   parts_->pass = pass.get();
   renderer.add(std::move(pass));
 }

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <glm/geometric.hpp>
+
 #include "water/scatter.h"
 
 namespace rinkaku::water {
@@ -93,6 +95,50 @@ BrushSheet drop_brushes() {
     store(sheet, texels);
   }
   return sheet;
+}
+
+BrushSheet own_brushes(std::span<const Picture> pictures) {
+  BrushSheet sheet;
+  for (const Picture& p : pictures) {
+    std::vector<Texel> texels(static_cast<std::size_t>(sheet.width_px) * sheet.height_px);
+    for (int y = 0; y < sheet.height_px; ++y) {
+      for (int x = 0; x < sheet.width_px; ++x) {
+        // The mean of what the texel covers.
+        const int x0 = x * p.width_px / sheet.width_px, y0 = y * p.height_px / sheet.height_px;
+        const int x1 = std::max(x0 + 1, (x + 1) * p.width_px / sheet.width_px);
+        const int y1 = std::max(y0 + 1, (y + 1) * p.height_px / sheet.height_px);
+        double sum = 0;
+        for (int j = y0; j < y1; ++j) {
+          for (int i = x0; i < x1; ++i) {
+            const std::uint8_t* s = p.samples.data() + (static_cast<std::size_t>(j) * p.width_px + i) * p.channels;
+            const double luma = (0.2126 * s[0] + 0.7152 * s[1] + 0.0722 * s[2]) / 255;
+            sum += luma * (p.channels == 4 ? s[3] / 255.0 : 1);
+          }
+        }
+        texels[static_cast<std::size_t>(y) * sheet.width_px + x] = {sum / ((x1 - x0) * (y1 - y0)), 0, 1};
+      }
+    }
+    store(sheet, texels);
+  }
+  return sheet;
+}
+
+std::array<std::uint8_t, 4> brush_shares(std::span<const glm::dvec2> places, glm::dvec2 at) {
+  std::array<double, 4> weight{};
+  double sum = 0;
+  const std::size_t count = std::min(places.size(), weight.size());
+  for (std::size_t i = 0; i < count; ++i) {
+    weight[i] = 1 / std::max(glm::distance(places[i], at), 1e-9);
+    sum += weight[i];
+  }
+  std::array<std::uint8_t, 4> shares{};
+  int left = 255;
+  for (std::size_t i = 0; i < count; ++i) {
+    shares[i] =
+        static_cast<std::uint8_t>(i + 1 == count ? left : std::min<long>(left, std::lround(255 * weight[i] / sum)));
+    left -= shares[i];
+  }
+  return shares;
 }
 
 }  // namespace rinkaku::water

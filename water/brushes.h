@@ -1,7 +1,13 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
+
+#include <glm/vec2.hpp>
+
+#include "water/reference_picture.h"
 
 namespace rinkaku::water {
 
@@ -20,6 +26,14 @@ inline constexpr int brush_variants = 4, brush_densities = 4;
 /// Layer = density * brush_variants + variant; density 0 is sparse, for changing flow, with gaps between the lines
 /// that show what lies below; the last one is dense, for calm water. (Suzuki et al. 2004, 5.1 a.)
 BrushSheet line_brushes();
+
+/// The user's own brushes, a layer each, from pictures of any size: as much paint as the picture is light (and opaque,
+/// if it has four channels). (Suzuki et al. 2004, 2.3.)
+BrushSheet own_brushes(std::span<const Picture> pictures);
+
+/// How brushes at places are blended elsewhere: shares in inverse proportion to the distance, that add up to 255.
+/// At most four. (Suzuki et al. 2004, 5.1 b.)
+std::array<std::uint8_t, 4> brush_shares(std::span<const glm::dvec2> places, glm::dvec2 at);
 
 /// A brush of blobs, for spray.
 BrushSheet drop_brushes();

@@ -112,12 +112,13 @@ glm::vec3 Painting::wave_colour(const Particle& p, const ReferencePicture& refer
   const glm::dvec2 look = glm::dvec2(s.middle_px) +
                           glm::dvec2(0.3 * signed_noise(p, LookX), signed_noise(p, LookY)) * (options_.ripple * length);
   if (!options_.mean) return reference.at(look);
-  // Along its way a stroke's colour is averaged over time as well: over the keys around, or by the filter, which is
-  // helped by looking some frames ahead and back.
-  glm::dvec2 reach = glm::abs(glm::dvec2(s.half_px)) * 0.2;
-  if (options_.colours == PaintingOptions::Colours::Followed) {
-    const glm::dvec2 step = screen_velocity(p) * options_.seconds_per_frame;
-    reach = glm::abs(glm::dvec2(s.half_px)) * 0.2 + glm::abs(step) * looked_ahead_frames;
+  // The stroke's own area; less of it along the stroke where colours are averaged along its way in time as well: over
+  // the keys around, or by the filter, which is helped by looking some frames ahead and back.
+  using Colours = PaintingOptions::Colours;
+  const double along = options_.colours == Colours::Sampled ? 0.6 : 0.2;
+  glm::dvec2 reach = glm::abs(glm::dvec2(s.half_px)) * along;
+  if (options_.colours == Colours::Followed) {
+    reach += glm::abs(screen_velocity(p)) * (options_.seconds_per_frame * looked_ahead_frames);
   }
   return neighbourhood_mean(reference, look, reach + double(s.half_width_px));
 }
@@ -179,7 +180,11 @@ void Painting::add_stroke(std::size_t i, const Particle& p) {
   colour = glm::clamp(colour + static_cast<float>(options_.variety * signed_noise(p, Light)), 0.0f, 1.0f);
   for (int c = 0; c < 3; ++c) stroke.colour[c] = static_cast<std::uint8_t>(std::lround(255 * colour[c]));
   stroke.colour[3] = static_cast<std::uint8_t>(std::lround(255 * p.opacity * options_.opacity));
-  stroke.brush = brush_of(p);
+  if (options_.brush_places.empty()) {
+    stroke.brush = brush_of(p);
+  } else {
+    stroke.blend = brush_shares(options_.brush_places, p.at);
+  }
   unordered_.push_back(stroke);
   depths_m_.push_back(stroke.depth_m);
 }

@@ -37,6 +37,7 @@ struct PaintingOptions {
   int key_frames = 15;
   bool mean = true;  ///< of the neighbourhood (equation 2); else of the stroke's middle alone
   FlowOptions flow;
+  std::vector<glm::dvec2> brush_places;  ///< of the user's own brushes, on the surface; none: brushes of lines
 };
 
 /// How the picture that a frame's strokes take their colours from comes about; called only when it is needed.

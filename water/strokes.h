@@ -15,6 +15,7 @@ struct Stroke {
   float half_width_px = 0;
   float brush = 0;  ///< layer of the brush sheet
   float depth_m = 1;
+  std::array<std::uint8_t, 4> blend{};   ///< of the user's own brushes: shares that add up to 255
   std::array<std::uint8_t, 4> colour{};  ///< sRGB-coded, and opacity
 };
 

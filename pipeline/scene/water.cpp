@@ -130,12 +130,26 @@ WaterSprayScene read_spray(const Table& spray) {
   return scene;
 }
 
+WaterBrushScene read_brush(const Table& brush) {
+  WaterBrushScene scene;
+  scene.image = existing_file(brush, "image");
+  const std::string_view at = brush.exactly_one({"at_px", "at_m"});
+  scene.where = brush.where(at);
+  scene.on_screen = at == "at_px";
+  if (scene.on_screen) {
+    scene.at_px = pixel(brush, "at_px");
+  } else {
+    scene.at_m = *brush.vector3("at_m", metres);
+  }
+  return scene;
+}
+
 void read_stroke(const Table& water, WaterScene& scene) {
   const auto stroke = water.table("stroke");
   if (!stroke) return;
   scene.length_m = stroke->number("length_m", Limits::above(0, 1e4));
-  stroke->exclude("width", "width_px");
-  scene.width = stroke->number("width", {0.02, 2}).value_or(scene.width);
+  stroke->exclude("aspect", "width_px");
+  scene.aspect = stroke->number("aspect", {0.02, 2}).value_or(scene.aspect);
   scene.width_px = stroke->number("width_px", Limits::above(0, 200));
   scene.opacity = stroke->number("opacity", Limits::above(0, 1)).value_or(scene.opacity);
   scene.foreshortening = stroke->number("foreshortening", {0, 1}).value_or(scene.foreshortening);
@@ -162,7 +176,7 @@ toml::Schema water_schema() {
       {.path = "water",
        .keys = {"strokes", "layers", "colour", "stroke", "flow", "mirror", "colours", "waterline", "surface", "spray",
                 "brush"}},
-      {.path = "water.stroke", .keys = {"length_m", "width", "width_px", "opacity", "foreshortening", "variety"}},
+      {.path = "water.stroke", .keys = {"length_m", "aspect", "width_px", "opacity", "foreshortening", "variety"}},
       {.path = "water.flow", .keys = {"method", "alpha_m", "cells"}},
       {.path = "water.mirror", .keys = {"plate", "surroundings_m", "reflection", "zenith", "horizon", "panorama"}},
       {.path = "water.colours", .keys = {"method", "key_frames", "ripple", "mean"}},
@@ -172,7 +186,7 @@ toml::Schema water_schema() {
        .repeated = true},
       {.path = "water.surface.arrow", .keys = {"frame", "from_px", "to_px", "from_m", "to_m"}, .repeated = true},
       {.path = "water.spray", .keys = {"from_m", "to_m", "drops", "height_m", "size_m", "colour"}, .repeated = true},
-      {.path = "water.brush", .keys = {"image", "at_px"}, .repeated = true},
+      {.path = "water.brush", .keys = {"image", "at_px", "at_m"}, .repeated = true},
   };
 }
 
@@ -193,10 +207,11 @@ WaterScene read_water(const Table& water) {
   }
   read_mirror(water, scene);
   if (const auto colours = water.table("colours")) {
-    scene.colours =
-        read_choice<WaterScene::Colours>(
-            *colours, "method", {{"keys", WaterScene::Colours::Keys}, {"followed", WaterScene::Colours::Followed}, {"sampled", WaterScene::Colours::Sampled}})
-            .value_or(scene.colours);
+    scene.colours = read_choice<WaterScene::Colours>(*colours, "method",
+                                                     {{"keys", WaterScene::Colours::Keys},
+                                                      {"followed", WaterScene::Colours::Followed},
+                                                      {"sampled", WaterScene::Colours::Sampled}})
+                        .value_or(scene.colours);
     scene.key_frames = static_cast<int>(colours->integer("key_frames", 1, 1000).value_or(scene.key_frames));
     scene.mean = colours->flag("mean").value_or(scene.mean);
     scene.ripple = colours->number("ripple", {0, 10}).value_or(scene.ripple);
@@ -208,9 +223,7 @@ WaterScene read_water(const Table& water) {
   }
   for (const Table& surface : water.tables("surface")) scene.surfaces.push_back(read_surface(surface));
   for (const Table& spray : water.tables("spray")) scene.sprays.push_back(read_spray(spray));
-  for (const Table& brush : water.tables("brush")) {
-    scene.brushes.push_back({existing_file(brush, "image"), pixel(brush, "at_px")});
-  }
+  for (const Table& brush : water.tables("brush")) scene.brushes.push_back(read_brush(brush));
   if (scene.brushes.size() > 4) throw water.error_at("brush", "is given more than four times", "leave some out");
   return scene;
 }

@@ -46,8 +46,11 @@ struct WaterSprayScene {
 
 /// A brush of the user's own, and where in the picture it is used.
 struct WaterBrushScene {
+  std::string where;
   std::filesystem::path image;
+  bool on_screen = true;
   glm::dvec2 at_px{0};
+  glm::dvec3 at_m{0};  ///< world
 };
 
 /// [water]
@@ -59,7 +62,7 @@ struct WaterScene {
 
   // stroke = { ... }
   std::optional<double> length_m;
-  double width = 0.22;
+  double aspect = 0.22;
   std::optional<double> width_px;
   double opacity = 0.9;
   double foreshortening = 0.5;

@@ -72,10 +72,11 @@ INSTANTIATE_TEST_SUITE_P(
         BadScene{"NothingNear", object + "regions = \"cow.rgn\"\n",
                  "DIR/scene.toml:8:1: unknown key 'regions' in [[object]]; known keys are anchor, colour, crease_deg, "
                  "height_m, holdout, mesh, name, outline, position_m, rotation_deg, scale, toon and up"},
-        BadScene{"TableOfALaterVersion", object + "[water]\n",
-                 "DIR/scene.toml:8:2: unknown key 'water'; known keys are light, object, output, plate and track"},
+        BadScene{"TableOfALaterVersion", object + "[fog]\n",
+                 "DIR/scene.toml:8:2: unknown key 'fog'; known keys are light, object, output, plate, track and water"},
         BadScene{"TablesOfALaterVersion", object + "[[foreground]]\nname = \"x\"\n",
-                 "DIR/scene.toml:8:3: unknown key 'foreground'; known keys are light, object, output, plate and track"},
+                 "DIR/scene.toml:8:3: unknown key 'foreground'; known keys are light, object, output, plate, track and "
+                 "water"},
         BadScene{"LiveCamera", "[plate]\ndevice = \"/dev/video0\"\n",
                  "DIR/scene.toml:2:1: 'device' in [plate] isn't supported; this version takes recordings only: give "
                  "'video' or 'images'"},

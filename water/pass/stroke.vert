@@ -8,6 +8,11 @@ uniform vec2 size_px;
 
 const float near_m = 1e-3;
 
+#ifdef OWN_BRUSHES
+layout(location = 3) in vec4 blend;
+flat out vec4 shares;
+#endif
+
 flat out vec4 paint;
 out vec3 on_brush;
 
@@ -18,6 +23,9 @@ void main() {
   vec2 pixel = line.xy + along * corner.x + across * corner.y;
   // A little nearer than the water it lies on. Depth is near / Z.
   gl_Position = vec4((pixel - rect_px + 0.5) / size_px * 2.0 - 1.0, near_m / how.z * 1.001, 1.0);
+#ifdef OWN_BRUSHES
+  shares = blend;
+#endif
   paint = colour;
   on_brush = vec3(corner * 0.5 + 0.5, how.y);
 }

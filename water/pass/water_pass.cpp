@@ -28,9 +28,10 @@ void attribute(GLuint array, GLuint location, GLint size, GLenum type, GLboolean
   glVertexArrayAttribBinding(array, location, 0);
 }
 
-gl::Program program(std::string_view name, std::string_view vertex, std::string_view fragment) {
+gl::Program program(std::string_view name, std::string_view vertex, std::string_view fragment,
+                    std::span<const std::string_view> defines) {
   const std::string_view vertex_parts[] = {vertex}, fragment_parts[] = {fragment};
-  return gl::Program(name, {}, vertex_parts, fragment_parts);
+  return gl::Program(name, defines, vertex_parts, fragment_parts);
 }
 
 // The pixels of the picture within which a surface lies, cut off a little before the eye.
@@ -87,22 +88,35 @@ gl::TextureHandle WaterPass::upload(const BrushSheet& sheet) {
   return texture;
 }
 
-WaterPass::WaterPass(const BrushSheet& brushes, const BrushSheet& drops)
-    : brushes_(upload(brushes)),
+WaterPass::StrokeProgram WaterPass::stroke_program(int own_brushes) {
+  static constexpr std::string_view counts[] = {"OWN_BRUSHES 1", "OWN_BRUSHES 2", "OWN_BRUSHES 3", "OWN_BRUSHES 4"};
+  StrokeProgram p;
+  p.program = program("stroke", embedded::stroke_vert, embedded::stroke_frag,
+                      own_brushes > 0 ? std::span(counts + own_brushes - 1, 1) : std::span<const std::string_view>());
+  p.rect_px = p.program.uniform("rect_px");
+  p.size_px = p.program.uniform("size_px");
+  return p;
+}
+
+WaterPass::WaterPass(const BrushSheet& lines, const BrushSheet& drops, const BrushSheet& own)
+    : lines_(upload(lines)),
       drops_(upload(drops)),
-      stroke_program_(program("stroke", embedded::stroke_vert, embedded::stroke_frag)),
-      surface_program_(program("water", embedded::surface_vert, embedded::surface_frag)),
+      line_program_(stroke_program(0)),
+      surface_program_(program("water", embedded::surface_vert, embedded::surface_frag, {})),
       stroke_array_(vertex_array()),
       surface_array_(vertex_array()) {
+  if (own.layers > 0) {
+    own_ = upload(own);
+    own_program_ = stroke_program(std::min(own.layers, 4));
+  }
   const GLuint strokes = stroke_array_.name();
   attribute(strokes, 0, 4, GL_FLOAT, GL_FALSE, offsetof(Stroke, middle_px));
   attribute(strokes, 1, 3, GL_FLOAT, GL_FALSE, offsetof(Stroke, half_width_px));
   attribute(strokes, 2, 4, GL_UNSIGNED_BYTE, GL_TRUE, offsetof(Stroke, colour));
+  attribute(strokes, 3, 4, GL_UNSIGNED_BYTE, GL_TRUE, offsetof(Stroke, blend));
   glVertexArrayBindingDivisor(strokes, 0, 1);
   attribute(surface_array_.name(), 0, 2, GL_FLOAT, GL_FALSE, offsetof(Corner, at));
   attribute(surface_array_.name(), 1, 2, GL_FLOAT, GL_FALSE, offsetof(Corner, outwards));
-  rect_px_ = stroke_program_.uniform("rect_px");
-  size_px_ = stroke_program_.uniform("size_px");
   clip_from_surface_ = surface_program_.uniform("clip_from_surface");
   viewport_px_ = surface_program_.uniform("viewport_px");
 }
@@ -123,14 +137,14 @@ passes::PixelRect WaterPass::look(const passes::View& view, const passes::PixelR
   return rect.empty() ? passes::PixelRect{} : rect;
 }
 
-void WaterPass::draw_strokes(std::span<const Stroke> strokes, const gl::TextureHandle& sheet,
+void WaterPass::draw_strokes(std::span<const Stroke> strokes, const StrokeProgram& with, const gl::TextureHandle& sheet,
                              const passes::PixelRect& rect) {
   if (strokes.empty()) return;
   stroke_buffer_.write(std::as_bytes(strokes));
   glVertexArrayVertexBuffer(stroke_array_.name(), 0, stroke_buffer_.name(), 0, sizeof(Stroke));
-  glUseProgram(stroke_program_.name());
-  glUniform2f(rect_px_, static_cast<float>(rect.x_px), static_cast<float>(rect.y_px));
-  glUniform2f(size_px_, static_cast<float>(rect.width_px), static_cast<float>(rect.height_px));
+  glUseProgram(with.program.name());
+  glUniform2f(with.rect_px, static_cast<float>(rect.x_px), static_cast<float>(rect.y_px));
+  glUniform2f(with.size_px, static_cast<float>(rect.width_px), static_cast<float>(rect.height_px));
   glBindTextureUnit(0, sheet.name());
   glBindVertexArray(stroke_array_.name());
   glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, static_cast<GLsizei>(strokes.size()));
@@ -144,7 +158,11 @@ void WaterPass::draw_aside(const passes::View&, const passes::PixelRect& rect) {
   glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
   for (std::size_t i = 0; i < shown_.size(); ++i) {
     targets_[i]->begin(rect.width_px, rect.height_px);
-    draw_strokes(shown_[i].strokes, brushes_, rect);
+    if (own_) {
+      draw_strokes(shown_[i].strokes, own_program_, own_, rect);
+    } else {
+      draw_strokes(shown_[i].strokes, line_program_, lines_, rect);
+    }
   }
 }
 
@@ -178,8 +196,8 @@ void WaterPass::draw(const passes::View& view, const passes::PixelRect& rect) {
 }
 
 void WaterPass::draw_over(const passes::View&, const passes::PixelRect& rect) {
-  draw_strokes(over_, brushes_, rect);
-  draw_strokes(drops_shown_, drops_, rect);
+  draw_strokes(over_, line_program_, lines_, rect);
+  draw_strokes(drops_shown_, line_program_, drops_, rect);
 }
 
 }  // namespace rinkaku::water

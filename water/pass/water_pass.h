@@ -30,7 +30,9 @@ struct PaintedSurface {
 /// The border's edges get a feather a pixel wide. Needs the GL context that was current at construction.
 class WaterPass : public passes::ScenePass {
  public:
-  explicit WaterPass(const BrushSheet& brushes, const BrushSheet& drops);
+  /// `lines` are for strokes over everything, and for those on surfaces unless there are brushes of the user's `own`,
+  /// at most four, which are blended.
+  WaterPass(const BrushSheet& lines, const BrushSheet& drops, const BrushSheet& own = {});
 
   /// What the next look() shows; the spans must stay valid until it has been drawn. `drops` use the second sheet.
   void show(std::span<const PaintedSurface> surfaces, std::span<const Stroke> over, std::span<const Stroke> drops);
@@ -45,18 +47,25 @@ class WaterPass : public passes::ScenePass {
     glm::vec2 at{0};
     glm::vec2 outwards{0};  // in the plane; 0 but for a feather's rim
   };
+  struct StrokeProgram {
+    gl::Program program;
+    GLint rect_px = -1, size_px = -1;
+  };
+  static StrokeProgram stroke_program(int own_brushes);
   static gl::TextureHandle upload(const BrushSheet& sheet);
-  void draw_strokes(std::span<const Stroke> strokes, const gl::TextureHandle& sheet, const passes::PixelRect& rect);
+  void draw_strokes(std::span<const Stroke> strokes, const StrokeProgram& program, const gl::TextureHandle& sheet,
+                    const passes::PixelRect& rect);
 
-  gl::TextureHandle brushes_, drops_;
-  gl::Program stroke_program_, surface_program_;
+  gl::TextureHandle lines_, drops_, own_;
+  StrokeProgram line_program_, own_program_;
+  gl::Program surface_program_;
   gl::VertexArrayHandle stroke_array_, surface_array_;
   gl::StreamBuffer stroke_buffer_, surface_buffer_;
   std::vector<std::unique_ptr<PaintTarget>> targets_;  // of each surface
   std::vector<PaintedSurface> shown_;
   std::span<const Stroke> over_, drops_shown_;
   std::vector<Corner> corners_;
-  GLint rect_px_ = -1, size_px_ = -1, clip_from_surface_ = -1, viewport_px_ = -1;
+  GLint clip_from_surface_ = -1, viewport_px_ = -1;
 };
 
 }  // namespace rinkaku::water
