@@ -56,6 +56,7 @@ struct WaterStage::Parts {
   std::vector<water::PaintedSurface> painted;
   std::vector<water::SprayOptions> sprays;
   water::Strokes over, drops;  // over everything
+  float ground_opacity = 0;
   std::vector<std::string> notices;
 };
 
@@ -136,6 +137,7 @@ WaterStage::WaterStage(const Scene& scene, const CameraModel& camera, double fra
     : parts_(std::make_unique<Parts>(scene, camera, renderer)) {
   const WaterScene& water = *scene.water;
   const KnownPoses poses(scene);
+  parts_->ground_opacity = static_cast<float>(water.ground);
   // Strokes are shared out by how much of the picture each surface takes, or how large it is.
   std::vector<double> sizes;
   double sum = 0;
@@ -167,7 +169,7 @@ void WaterStage::look(const Frame& frame, const RigidTransform& camera_from_worl
       return parts_->reference(*piece, frame, camera_from_world);
     };
     const water::Strokes& strokes = piece->painting->paint(frame.number, parts_->camera, camera_from_world, make);
-    parts_->painted.push_back({&piece->surface, strokes});
+    parts_->painted.push_back({&piece->surface, strokes, &piece->reference, parts_->ground_opacity});
     if (piece->waterline) piece->waterline->add(frame.number, parts_->camera, camera_from_world, parts_->over);
   }
   for (const water::SprayOptions& spray : parts_->sprays) {

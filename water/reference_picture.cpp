@@ -72,6 +72,7 @@ void ReferencePicture::paint(const Surface& surface, const CameraModel& camera, 
                              const MirrorOptions& options, const Picture* plate, const Picture* mirrored,
                              int mirrored_step_px, int step_px) {
   step_px_ = step_px;
+  ++version_;
   width_px_ = (camera.width_px + step_px - 1) / step_px + 1;
   height_px_ = (camera.height_px + step_px - 1) / step_px + 1;
   samples_.resize(static_cast<std::size_t>(width_px_) * height_px_);

@@ -58,9 +58,12 @@ class ReferencePicture {
   int width_px() const { return width_px_; }
   int height_px() const { return height_px_; }
   const std::vector<glm::vec3>& samples() const { return samples_; }
+  int step_px() const { return step_px_; }
+  /// Another one after each paint().
+  int version() const { return version_; }
 
  private:
-  int width_px_ = 0, height_px_ = 0, step_px_ = 1;
+  int width_px_ = 0, height_px_ = 0, step_px_ = 1, version_ = 0;
   std::vector<glm::vec3> samples_;
 };
 

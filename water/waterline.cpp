@@ -73,8 +73,8 @@ void Waterline::add(std::int64_t frame, const CameraModel& camera, const RigidTr
     const double shortened = std::min(glm::length(direction), 1.0);
     if (!(shortened > 1e-6)) continue;
     const double full = stroke_length_px(options_.size, camera.fx_px, c.z);
-    const double length = full * (0.35 + 0.5 * random(2)) * std::max(shortened, 0.4) * (1 + 0.1 * swell);
-    const double width = std::max(stroke_width_px(options_.size, full) * (0.3 + 0.35 * random(3)), 1.2);
+    const double length = full * (0.5 + 0.6 * random(2)) * std::max(shortened, 0.4) * (1 + 0.1 * swell);
+    const double width = std::max(stroke_width_px(options_.size, full) * (0.16 + 0.26 * random(3)), 1.1);
     Stroke s;
     s.middle_px = to_pixels(camera, n);
     s.half_px = direction / glm::length(direction) * (length / 2);

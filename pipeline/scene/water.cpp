@@ -152,6 +152,7 @@ void read_stroke(const Table& water, WaterScene& scene) {
   scene.aspect = stroke->number("aspect", {0.02, 2}).value_or(scene.aspect);
   scene.width_px = stroke->number("width_px", Limits::above(0, 200));
   scene.opacity = stroke->number("opacity", Limits::above(0, 1)).value_or(scene.opacity);
+  scene.ground = stroke->number("ground", {0, 1}).value_or(scene.ground);
   scene.foreshortening = stroke->number("foreshortening", {0, 1}).value_or(scene.foreshortening);
   scene.variety = stroke->number("variety", {0, 0.5}).value_or(scene.variety);
 }
@@ -176,7 +177,8 @@ toml::Schema water_schema() {
       {.path = "water",
        .keys = {"strokes", "layers", "colour", "stroke", "flow", "mirror", "colours", "waterline", "surface", "spray",
                 "brush"}},
-      {.path = "water.stroke", .keys = {"length_m", "aspect", "width_px", "opacity", "foreshortening", "variety"}},
+      {.path = "water.stroke",
+       .keys = {"length_m", "aspect", "width_px", "opacity", "ground", "foreshortening", "variety"}},
       {.path = "water.flow", .keys = {"method", "alpha_m", "cells"}},
       {.path = "water.mirror", .keys = {"plate", "surroundings_m", "reflection", "zenith", "horizon", "panorama"}},
       {.path = "water.colours", .keys = {"method", "key_frames", "ripple", "mean"}},

@@ -65,6 +65,7 @@ struct WaterScene {
   double aspect = 0.22;
   std::optional<double> width_px;
   double opacity = 0.9;
+  double ground = 0.8;  ///< opacity of the first coat
   double foreshortening = 0.5;
   double variety = 0.05;
 

@@ -118,6 +118,10 @@ WaterPass::WaterPass(const BrushSheet& lines, const BrushSheet& drops, const Bru
   attribute(surface_array_.name(), 0, 2, GL_FLOAT, GL_FALSE, offsetof(Corner, at));
   attribute(surface_array_.name(), 1, 2, GL_FLOAT, GL_FALSE, offsetof(Corner, outwards));
   clip_from_surface_ = surface_program_.uniform("clip_from_surface");
+  ground_opacity_ = surface_program_.uniform("ground_opacity");
+  ground_place_ = surface_program_.uniform("ground_place");
+  glProgramUniform1i(surface_program_.name(), surface_program_.uniform("painting"), 0);
+  glProgramUniform1i(surface_program_.name(), surface_program_.uniform("ground"), 1);
   viewport_px_ = surface_program_.uniform("viewport_px");
 }
 
@@ -126,6 +130,7 @@ void WaterPass::show(std::span<const PaintedSurface> surfaces, std::span<const S
   shown_.assign(surfaces.begin(), surfaces.end());
   over_ = over, drops_shown_ = drops;
   while (targets_.size() < shown_.size()) targets_.push_back(std::make_unique<PaintTarget>());
+  if (grounds_.size() < shown_.size()) grounds_.resize(shown_.size());
 }
 
 passes::PixelRect WaterPass::look(const passes::View& view, const passes::PixelRect& picture) {
@@ -148,6 +153,29 @@ void WaterPass::draw_strokes(std::span<const Stroke> strokes, const StrokeProgra
   glBindTextureUnit(0, sheet.name());
   glBindVertexArray(stroke_array_.name());
   glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, static_cast<GLsizei>(strokes.size()));
+}
+
+void WaterPass::upload_ground(const ReferencePicture& picture, Ground& ground) {
+  if (ground.version == picture.version() && ground.texture) return;
+  ground.version = picture.version();
+  if (!ground.texture || ground.width_px != picture.width_px() || ground.height_px != picture.height_px()) {
+    ground.width_px = picture.width_px(), ground.height_px = picture.height_px();
+    GLuint name = 0;
+    glCreateTextures(GL_TEXTURE_2D, 1, &name);
+    ground.texture = gl::TextureHandle(name);
+    glTextureStorage2D(name, 1, GL_RGBA8, ground.width_px, ground.height_px);
+    glTextureParameteri(name, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+    glTextureParameteri(name, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+    glTextureParameteri(name, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+    glTextureParameteri(name, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+  }
+  ground_texels_.clear();
+  for (const glm::vec3& c : picture.samples()) {
+    for (int i = 0; i < 3; ++i) ground_texels_.push_back(static_cast<std::uint8_t>(std::lround(255 * c[i])));
+    ground_texels_.push_back(255);
+  }
+  glTextureSubImage2D(ground.texture.name(), 0, 0, 0, ground.width_px, ground.height_px, GL_RGBA, GL_UNSIGNED_BYTE,
+                      ground_texels_.data());
 }
 
 void WaterPass::draw_aside(const passes::View&, const passes::PixelRect& rect) {
@@ -190,6 +218,18 @@ void WaterPass::draw(const passes::View& view, const passes::PixelRect& rect) {
     const glm::mat4 clip(passes::clip_from_view(view, rect) * to_matrix(view.camera_from_world) * world_from_surface);
     glUniformMatrix4fv(clip_from_surface_, 1, GL_FALSE, glm::value_ptr(clip));
     glBindTextureUnit(0, targets_[i]->texture());
+    const ReferencePicture* ground = shown_[i].ground;
+    const bool grounded = ground != nullptr && !ground->empty() && shown_[i].ground_opacity > 0;
+    glUniform1f(ground_opacity_, grounded ? shown_[i].ground_opacity : 0);
+    if (grounded) {
+      upload_ground(*ground, grounds_[i]);
+      // From a pixel of the target to the picture's own coordinates; texel centres lie at its pixels.
+      const auto step = static_cast<float>(ground->step_px());
+      const float w = step * static_cast<float>(ground->width_px()), h = step * static_cast<float>(ground->height_px());
+      glUniform4f(ground_place_, (static_cast<float>(rect.x_px) - 0.5f + step / 2) / w,
+                  (static_cast<float>(rect.y_px) - 0.5f + step / 2) / h, 1 / w, 1 / h);
+      glBindTextureUnit(1, grounds_[i].texture.name());
+    }
     glBindVertexArray(surface_array_.name());
     glDrawArrays(GL_TRIANGLES, 0, static_cast<GLsizei>(corners_.size()));
   }

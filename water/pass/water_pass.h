@@ -12,6 +12,7 @@
 #include "pipeline/passes/scene_pass.h"
 #include "water/brushes.h"
 #include "water/pass/paint_target.h"
+#include "water/reference_picture.h"
 #include "water/strokes.h"
 #include "water/surface.h"
 
@@ -21,6 +22,8 @@ namespace rinkaku::water {
 struct PaintedSurface {
   const Surface* surface = nullptr;
   std::span<const Stroke> strokes;
+  const ReferencePicture* ground = nullptr;  ///< what shows between the strokes; null: what lies below
+  float ground_opacity = 0;
 };
 
 /// Draws painted water into the layer. Strokes go into a picture of their own, one over another; the surface's
@@ -61,11 +64,19 @@ class WaterPass : public passes::ScenePass {
   gl::Program surface_program_;
   gl::VertexArrayHandle stroke_array_, surface_array_;
   gl::StreamBuffer stroke_buffer_, surface_buffer_;
+  struct Ground {
+    gl::TextureHandle texture;
+    int width_px = 0, height_px = 0, version = -1;
+  };
+  void upload_ground(const ReferencePicture& picture, Ground& ground);
+
   std::vector<std::unique_ptr<PaintTarget>> targets_;  // of each surface
+  std::vector<Ground> grounds_;                        // likewise
+  std::vector<std::uint8_t> ground_texels_;
   std::vector<PaintedSurface> shown_;
   std::span<const Stroke> over_, drops_shown_;
   std::vector<Corner> corners_;
-  GLint clip_from_surface_ = -1, viewport_px_ = -1;
+  GLint clip_from_surface_ = -1, viewport_px_ = -1, ground_opacity_ = -1, ground_place_ = -1;
 };
 
 }  // namespace rinkaku::water
