@@ -7,6 +7,7 @@
 #include <optional>
 #include <utility>
 
+#include "pipeline/passes/layer_renderer.h"
 #include "pipeline/small_picture.h"
 #include "pipeline/water_set_up.h"
 #include "water/pass/water_pass.h"
@@ -36,8 +37,8 @@ struct WaterStage::Parts {
     bool followed = false;
   };
 
-  Parts(const Scene& scene, const CameraModel& c, passes::LayerRenderer& r)
-      : camera(c), renderer(r), has_objects(!scene.objects.empty()), plates(plate_most_px) {}
+  Parts(const Scene& scene, const CameraModel& c, Drawing& d)
+      : camera(c), drawing(d), has_objects(!scene.objects.empty()), plates(plate_most_px) {}
 
   void add_surface(const WaterScene& water, const WaterSurfaceScene& surface, const KnownPoses& poses,
                    double frames_per_s, std::span<const water::Solid> solids, double share);
@@ -45,7 +46,7 @@ struct WaterStage::Parts {
   void mirror_objects(const water::Surface& surface, const RigidTransform& camera_from_world);
 
   CameraModel camera;
-  passes::LayerRenderer& renderer;
+  Drawing& drawing;  // whose renderer may be another one later
   bool has_objects;
   std::vector<std::unique_ptr<Piece>> pieces;
   water::WaterPass* pass = nullptr;  // the renderer's
@@ -105,7 +106,7 @@ void WaterStage::Parts::mirror_objects(const water::Surface& surface, const Rigi
   glm::dvec4 plane(n, -glm::dot(n, surface.to_world({0, 0})));
   if (surface.height_m(inverse(camera_from_world).translation_m) < 0) plane = -plane;
   const passes::PixelRect picture{0, 0, eye.camera.width_px, eye.camera.height_px};
-  if (!renderer.draw_objects({eye.camera, eye.camera_from_world, plane}, picture, mirror_layer)) return;
+  if (!drawing.renderer->draw_objects({eye.camera, eye.camera_from_world, plane}, picture, mirror_layer)) return;
   mirrored.width_px = picture.width_px, mirrored.height_px = picture.height_px, mirrored.channels = 4;
   mirrored.samples.assign(static_cast<std::size_t>(picture.width_px) * picture.height_px * 4, 0);
   const passes::PixelRect& rect = mirror_layer.rect;
@@ -132,9 +133,8 @@ const water::ReferencePicture& WaterStage::Parts::reference(Piece& piece, const 
   return piece.reference;
 }
 
-WaterStage::WaterStage(const Scene& scene, const CameraModel& camera, double frames_per_s,
-                       std::span<const water::Solid> solids, passes::LayerRenderer& renderer)
-    : parts_(std::make_unique<Parts>(scene, camera, renderer)) {
+WaterStage::WaterStage(const Scene& scene, const CameraModel& camera, double frames_per_s, Drawing& drawing)
+    : parts_(std::make_unique<Parts>(scene, camera, drawing)) {
   const WaterScene& water = *scene.water;
   const KnownPoses poses(scene);
   parts_->ground_opacity = static_cast<float>(water.ground);
@@ -149,14 +149,14 @@ WaterStage::WaterStage(const Scene& scene, const CameraModel& camera, double fra
     sum += sizes.back();
   }
   for (std::size_t i = 0; i < water.surfaces.size(); ++i) {
-    parts_->add_surface(water, water.surfaces[i], poses, frames_per_s, solids, sum > 0 ? sizes[i] / sum : 1);
+    parts_->add_surface(water, water.surfaces[i], poses, frames_per_s, drawing.solids, sum > 0 ? sizes[i] / sum : 1);
   }
   for (const WaterSprayScene& s : water.sprays) {
     parts_->sprays.push_back({s.from_m, s.to_m, s.drops, s.height_m, s.size_m, s.colour, frames_per_s});
   }
   auto pass = std::make_unique<water::WaterPass>(water::line_brushes(), water::drop_brushes(), read_brushes(water));
   parts_->pass = pass.get();
-  renderer.add(std::move(pass));
+  drawing.renderer->add(std::move(pass));
 }
 
 WaterStage::~WaterStage() = default;

@@ -1,16 +1,14 @@
 #pragma once
 
 #include <memory>
-#include <span>
 #include <string>
 #include <vector>
 
+#include "pipeline/drawing.h"
 #include "pipeline/frame/camera_model.h"
 #include "pipeline/frame/frame.h"
 #include "pipeline/frame/rigid_transform.h"
-#include "pipeline/passes/layer_renderer.h"
 #include "pipeline/scene/scene.h"
-#include "water/section.h"
 
 namespace rinkaku::pipeline {
 
@@ -18,10 +16,9 @@ namespace rinkaku::pipeline {
 /// the mirrored objects, and hands them to its pass in the renderer. Lives on the thread of the GL context.
 class WaterStage {
  public:
-  /// Adds its pass to `renderer`, which must outlive the stage. `solids` stand in the water; `frames_per_s` of the
+  /// Adds its pass to the drawing's renderer; the drawing must outlive the stage. `frames_per_s` of the
   /// plate. Throws Error (Input), with the scene's line, for what can't be painted.
-  WaterStage(const Scene& scene, const CameraModel& camera, double frames_per_s, std::span<const water::Solid> solids,
-             passes::LayerRenderer& renderer);
+  WaterStage(const Scene& scene, const CameraModel& camera, double frames_per_s, Drawing& drawing);
   ~WaterStage();
   WaterStage(WaterStage&&) noexcept;
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "pipeline/gl/target.h"
@@ -27,6 +28,8 @@ class LayerRenderer {
   LayerRenderer(std::vector<StyledObject> objects, const PixelRect& picture);
 
   void add(std::unique_ptr<ScenePass> pass) { scene_passes_.push_back(std::move(pass)); }
+  /// Takes over the other's scene passes.
+  void take_scene_passes(LayerRenderer& from) { std::swap(scene_passes_, from.scene_passes_); }
 
   /// Draws what `view` sees. Returns false, leaving `layer` empty, if no object is in the picture.
   bool draw(const View& view, Layer& layer);

@@ -32,6 +32,6 @@ glm::dmat4 clip_from_camera(const CameraModel& camera, const PixelRect& rect);
 glm::dmat4 clip_from_view(const View& view, const PixelRect& rect);
 
 /// Nearer than this nothing is drawn.
-inline constexpr double near_m = 1e-3;
+inline constexpr double near_m = 1e-5;
 
 }  // namespace rinkaku::passes

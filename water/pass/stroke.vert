@@ -6,7 +6,7 @@ layout(location = 2) in vec4 colour;
 uniform vec2 rect_px;  // the target's first pixel
 uniform vec2 size_px;
 
-const float near_m = 1e-3;
+uniform float near_m;  // depth is near / Z
 
 #ifdef OWN_BRUSHES
 layout(location = 3) in vec4 blend;
@@ -21,7 +21,7 @@ void main() {
   vec2 along = line.zw;
   vec2 across = vec2(-along.y, along.x) * (how.x / max(length(along), 1e-6));
   vec2 pixel = line.xy + along * corner.x + across * corner.y;
-  // A little nearer than the water it lies on. Depth is near / Z.
+  // A little nearer than the water it lies on.
   gl_Position = vec4((pixel - rect_px + 0.5) / size_px * 2.0 - 1.0, near_m / how.z * 1.001, 1.0);
 #ifdef OWN_BRUSHES
   shares = blend;

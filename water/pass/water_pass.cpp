@@ -93,6 +93,7 @@ WaterPass::StrokeProgram WaterPass::stroke_program(int own_brushes) {
   StrokeProgram p;
   p.program = program("stroke", embedded::stroke_vert, embedded::stroke_frag,
                       own_brushes > 0 ? std::span(counts + own_brushes - 1, 1) : std::span<const std::string_view>());
+  glProgramUniform1f(p.program.name(), p.program.uniform("near_m"), static_cast<float>(passes::near_m));
   p.rect_px = p.program.uniform("rect_px");
   p.size_px = p.program.uniform("size_px");
   return p;
