@@ -8,6 +8,7 @@
 #include "pipeline/passes/layer.h"
 #include "pipeline/regions.h"
 #include "pipeline/scene/scene.h"
+#include "water/section.h"
 
 namespace rinkaku::gl {
 class Context;
@@ -45,6 +46,7 @@ struct Drawing {
   Drawing(Drawing&&) noexcept;
   std::unique_ptr<gl::Context> context;
   std::unique_ptr<passes::LayerRenderer> renderer;
+  std::vector<water::Solid> solids;  ///< the objects in the world, if there is water for them to stand in
   passes::PixelRect picture;
   std::vector<std::string> notices;  ///< what the meshes' import had to say
 };
