@@ -119,6 +119,16 @@ std::vector<std::optional<PreparedObject>> prepare_all(const Scene& scene, const
   return prepared;
 }
 
+water::Solid in_world(const mesh::Mesh& mesh, const glm::dmat4& world_from_object) {
+  water::Solid solid;
+  solid.triangles.assign(mesh.triangles.begin(), mesh.triangles.end());
+  solid.positions_m.reserve(mesh.positions.size());
+  for (const glm::vec3& p : mesh.positions) {
+    solid.positions_m.emplace_back(world_from_object * glm::dvec4(p, 1));
+  }
+  return solid;
+}
+
 }  // namespace
 
 mesh::Imported load_mesh(const ObjectScene& object) {
@@ -172,8 +182,14 @@ Drawing make_drawing(const Scene& scene, const passes::PixelRect& picture, const
   Drawing drawing;
   drawing.context = gl::Context::headless();
   drawing.picture = picture;
+  std::vector<std::optional<PreparedObject>> all = preparing.get();
+  if (scene.water) {
+    for (const std::optional<PreparedObject>& one : all) {
+      drawing.solids.push_back(in_world(one->imported.mesh, one->shape.world_from_object()));
+    }
+  }
   drawing.renderer =
-      std::make_unique<passes::LayerRenderer>(style(scene, preparing.get(), drawing.notices), drawing.picture);
+      std::make_unique<passes::LayerRenderer>(style(scene, std::move(all), drawing.notices), drawing.picture);
   return drawing;
 }
 
@@ -194,7 +210,9 @@ PreparedObjects prepare_objects(const Scene& scene) {
 void redraw(Drawing& drawing, const Scene& scene, PreparedObjects objects) {
   std::vector<std::string> notices;  // said already when the run began
   std::vector<passes::StyledObject> styled = style(scene, std::move(objects.all_->objects), notices);
-  drawing.renderer = std::make_unique<passes::LayerRenderer>(std::move(styled), drawing.picture);
+  auto renderer = std::make_unique<passes::LayerRenderer>(std::move(styled), drawing.picture);
+  renderer->take_scene_passes(*drawing.renderer);
+  drawing.renderer = std::move(renderer);
 }
 
 }  // namespace rinkaku::pipeline

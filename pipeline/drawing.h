@@ -8,6 +8,7 @@
 #include "pipeline/passes/layer.h"
 #include "pipeline/regions.h"
 #include "pipeline/scene/scene.h"
+#include "water/section.h"
 
 namespace rinkaku::gl {
 class Context;
@@ -45,6 +46,7 @@ struct Drawing {
   Drawing(Drawing&&) noexcept;
   std::unique_ptr<gl::Context> context;
   std::unique_ptr<passes::LayerRenderer> renderer;
+  std::vector<water::Solid> solids;  ///< the objects in the world, if there is water for them to stand in
   passes::PixelRect picture;
   std::vector<std::string> notices;  ///< what the meshes' import had to say
 };
@@ -53,6 +55,7 @@ struct Drawing {
 /// not compiled. `picture` is the part of the pinhole picture that can be seen.
 /// Throws Error: Input for a mesh or its regions, Runtime if there is no OpenGL 4.5.
 Drawing make_drawing(const Scene& scene, const passes::PixelRect& picture, const RegionOptions& regions = {});
+
 /// Draws these objects of the scene under its light from now on, in the context that there is; what make_drawing() got
 /// of the scene beside them stays. `objects` are prepared from the same scene. On the drawing's thread; nothing changes
 /// if it throws.

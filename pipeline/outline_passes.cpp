@@ -18,6 +18,7 @@
 #include "outline/styles/inverted_hull_pass.h"
 #include "outline/styles/picture_lines_pass.h"
 #include "outline/styles/stroke_pass.h"
+#include "pipeline/drawn_lines_file.h"
 #include "pipeline/stroke_image.h"
 
 namespace rinkaku::pipeline {
@@ -76,6 +77,20 @@ std::unique_ptr<passes::ObjectPass> picture_lines(passes::StyledObject& styled, 
   return std::make_unique<outline::PictureLinesPass>(*styled.object, *styled.passes.front(), options);
 }
 
+mesh::Texture brush_of(const LineStyleScene& style) {
+  return style.brush.empty() ? outline::bristles() : read_stroke_image(style.brush);
+}
+
+// `brush` must outlive the options.
+void press(const LineStyleScene& style, const mesh::Texture& brush, outline::StrokeOptions& options) {
+  options.brush = &brush;
+  options.brush_px = static_cast<float>(style.brush_px);
+  options.stroke_px = static_cast<float>(style.stroke_px);
+  options.gap = static_cast<float>(style.gap);
+  options.pressure = static_cast<float>(style.pressure);
+  options.dryness = static_cast<float>(style.dryness);
+}
+
 std::unique_ptr<passes::ObjectPass> strokes(passes::DrawnObject& object, const mesh::Mesh& mesh,
                                             const OutlineScene& line) {
   const LineStyleScene& style = line.style;
@@ -93,13 +108,24 @@ std::unique_ptr<passes::ObjectPass> strokes(passes::DrawnObject& object, const m
     options.wave_m = static_cast<float>(style.wave * radius_m(object, mesh));
     options.redraw_frames = style.redraw_frames;
   } else {
-    brush = style.brush.empty() ? outline::bristles() : read_stroke_image(style.brush);
-    options.brush = &brush;
-    options.brush_px = static_cast<float>(style.brush_px);
-    options.stroke_px = static_cast<float>(style.stroke_px);
-    options.gap = static_cast<float>(style.gap);
-    options.pressure = static_cast<float>(style.pressure);
-    options.dryness = static_cast<float>(style.dryness);
+    brush = brush_of(style);
+    press(style, brush, options);
+  }
+  return std::make_unique<outline::StrokePass>(object, mesh, mesh::topology(mesh), options);
+}
+
+// The lines that the user drew, as the brush draws them if there is one.
+std::unique_ptr<passes::ObjectPass> drawn_lines(passes::DrawnObject& object, const mesh::Mesh& mesh,
+                                                const OutlineScene& line) {
+  outline::StrokeOptions options;
+  options.lines = outline::StrokeOptions::Lines::Drawn;
+  options.drawn = read_drawn_lines(line.style.drawn, mesh.triangles.size());
+  options.look = look_of(line);
+  options.taper_px = static_cast<float>(line.taper_px);
+  mesh::Texture brush;
+  if (line.method == M::Strokes) {
+    brush = brush_of(line.style);
+    press(line.style, brush, options);
   }
   return std::make_unique<outline::StrokePass>(object, mesh, mesh::topology(mesh), options);
 }
@@ -170,6 +196,7 @@ void add_outline(passes::StyledObject& styled, const mesh::Mesh& mesh, const Out
       over.push_back(strokes(object, mesh, line));
       break;
   }
+  if (!line.style.drawn.empty()) over.push_back(drawn_lines(object, mesh, line));
   if (line.style.inner) over.push_back(inner_lines(object, mesh, line, *line.style.inner));
   for (auto& pass : over) styled.passes.insert(styled.passes.begin(), std::move(pass));
   if (under) styled.passes.push_back(std::move(under));

@@ -15,6 +15,7 @@
 #include "pipeline/sink/sink.h"
 #include "pipeline/source/source.h"
 #include "pipeline/track/tracker.h"
+#include "pipeline/water_stage.h"
 
 namespace rinkaku::pipeline {
 namespace {
@@ -97,12 +98,20 @@ RenderReport render(const Prepared& prepared, const RenderOptions& options, cons
   std::optional<passes::LensMap> lens;
   if (plan.runs("lens")) lens.emplace(*prepared.camera);
   std::optional<Drawing> drawing;
+  std::optional<WaterStage> water;
   SpentLayers spent;
   if (plan.runs("draw")) {
     const passes::PixelRect picture{0, 0, result.width_px, result.height_px};
     drawing.emplace(make_drawing(scene, lens ? lens->pinhole_rect() : picture,
                                  {.tell = options.tell, .stop = &stop, .wait_for_lists = !described.live}));
     result.notices.insert(result.notices.end(), drawing->notices.begin(), drawing->notices.end());
+    if (plan.runs("water")) {
+      water.emplace(scene, *prepared.camera, frames_per_s(described), *drawing);
+      result.notices.insert(result.notices.end(), water->notices().begin(), water->notices().end());
+      line.add(Group::Draw, "water", [&](Work& work) {
+        if (work.pose && work.pose->opacity > 0) water->look(work.frame, work.pose->camera_from_world);
+      });
+    }
     line.add(Group::Draw, "draw", [&](Work& work) {
       work.layer = spent.take();
       work.layer.rect = {};
@@ -177,7 +186,7 @@ RenderReport render(const Prepared& prepared, const RenderOptions& options, cons
   if (plan.runs("draw") && result.frames > 0 && result.posed_frames == 0 && all_there) {
     throw no_pose_error(prepared, described, result.frames);
   }
-  for (sink::Sink* each : {output.sink.get(), layers.sink.get()}) {
+  for (sink::Sink* each : {output.sink.get(), layers.sink.get(), virtual_camera.get()}) {
     if (each == nullptr) continue;
     each->finish();
     if (!each->notice().empty()) result.notices.push_back(each->notice());

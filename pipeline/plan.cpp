@@ -12,6 +12,7 @@ struct Facts {
   const Request& request;
 
   bool draws() const { return !scene.objects.empty(); }
+  bool anything() const { return draws() || scene.water; }
   bool composites() const { return scene.output.content == OutputScene::Content::Composite; }
   template <typename Wanted>
   std::size_t count(Wanted wanted) const {
@@ -113,6 +114,12 @@ Verdict curvature(const Facts& f) {
   return {true, "the line's width follows the curvature of " + objects(n)};
 }
 
+Verdict water(const Facts& f) {
+  if (!f.scene.water) return {false, "the scene has no [water]"};
+  const std::size_t n = f.scene.water->surfaces.size();
+  return {true, (n == 1 ? "1 surface" : std::to_string(n) + " surfaces") + " painted with strokes"};
+}
+
 Verdict fluffy(const Facts& f) {
   if (!f.draws()) return {false, no_object};
   const std::size_t n = f.count([](const ObjectScene& o) { return o.fluffy.has_value(); });
@@ -123,26 +130,28 @@ Verdict fluffy(const Facts& f) {
 Verdict line_targets(const Facts& f) {
   if (!f.draws()) return {false, no_object};
   const std::size_t n = f.count([](const ObjectScene& o) {
-    return o.outline && (needs_own_targets(o.outline->method) || o.outline->style.inner);
+    return o.outline &&
+           (needs_own_targets(o.outline->method) || o.outline->style.inner || !o.outline->style.drawn.empty());
   });
   if (n == 0) return {false, "no line is found in pictures of its object"};
   return {true, "lines of " + objects(n) + " need pictures of the object, in targets of their own"};
 }
 
 Verdict draw(const Facts& f) {
-  if (!f.draws()) return {false, std::string(no_object) + ": no OpenGL context is made"};
-  return {true, objects(f.scene.objects.size()) + " to draw"};
+  if (!f.anything()) return {false, std::string(no_object) + ": no OpenGL context is made"};
+  if (!f.draws()) return {true, "water to draw"};
+  return {true, objects(f.scene.objects.size()) + (f.scene.water ? " and water to draw" : " to draw")};
 }
 
 Verdict lens(const Facts& f) {
-  if (!f.draws()) return {false, no_object};
+  if (!f.anything()) return {false, no_object};
   if (f.camera == nullptr || !f.camera->has_distortion()) return {false, "the camera has no lens distortion"};
   return {true, "the camera's lens distortion is put on the CG"};
 }
 
 Verdict composite(const Facts& f) {
   if (!f.composites()) return {false, "the output is the CG alone"};
-  if (!f.draws()) return {false, "nothing is drawn: the plate goes to the sink untouched"};
+  if (!f.anything()) return {false, "nothing is drawn: the plate goes to the sink untouched"};
   return {true, "CG is laid over the plate's own planes"};
 }
 
@@ -197,7 +206,8 @@ const std::vector<Kind>& kinds() {
       {"line-targets", line_targets, {"import"}},
       {"outline", outline, {"import", "curvature", "line-targets"}},
       {"fluffy", fluffy, {"import"}},
-      {"draw", draw, {"decode", "track", "smooth", "toon", "flat", "holdout", "regions", "outline", "fluffy"}},
+      {"water", water, {"decode", "track", "smooth"}},
+      {"draw", draw, {"decode", "track", "smooth", "toon", "flat", "holdout", "regions", "outline", "fluffy", "water"}},
       {"lens", lens, {"draw"}},
       {"composite", composite, {"decode", "draw", "lens"}},
       {"unmultiply", unmultiply, {"draw", "lens"}},

@@ -222,6 +222,10 @@ std::int64_t frames_expected(const source::Description& described, const RenderO
   return std::max<std::int64_t>(0, std::min(described.frame_count, options.end_frame) - options.first_frame);
 }
 
+double frames_per_s(const source::Description& described) {
+  return described.frame_rate.num > 0 ? described.frame_rate.value() : 25;
+}
+
 void require_blendable(const source::Description& described) {
   if (passes::can_blend(described.format.pixels)) return;
   throw input_error(described.name, "CG can't be laid over pictures of the format " + described.format.pixels.name,

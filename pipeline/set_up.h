@@ -40,6 +40,9 @@ std::unique_ptr<sink::Sink> open_virtual_camera(const Prepared& prepared, const 
 /// How many frames the run will have; 0 if the source doesn't tell.
 std::int64_t frames_expected(const source::Description& described, const RenderOptions& options);
 
+/// Of the plate; 25 if its file doesn't tell.
+double frames_per_s(const source::Description& described);
+
 /// Throws if CG can't be laid over such pictures.
 void require_blendable(const source::Description& described);
 

@@ -103,6 +103,17 @@ struct SheetCall {
 };
 int sheet(const SheetCall& call);
 
+struct TraceCall {
+  std::string scene;
+  std::string lines;
+  std::string output;
+  std::string object;
+  std::int64_t frame = 0;
+  bool force = false;
+  bool json = false;
+};
+int trace(const TraceCall& call);
+
 struct BakeCall {
   std::string mesh;
   std::string output;

@@ -72,16 +72,25 @@ void print(const Listed& camera) {
   const v4l2::Identity& identity = camera.device.identity;
   std::printf("%s: %s (%s, %s)\n", camera.device.path.c_str(), identity.card.c_str(), camera.device.driver.c_str(),
               identity.bus.c_str());
+  std::string unread;
   for (const v4l2::Mode& mode : camera.modes) {
+    const std::string format = v4l2::name_of(mode.format);
+    if (!v4l2::readable(mode.format)) {
+      if ((" " + unread + ",").find(" " + format + ",") == std::string::npos) {
+        unread += (unread.empty() ? "" : ", ") + format;
+      }
+      continue;
+    }
     std::string rates;
     for (const Rational rate : mode.rates) {
       char text[32];
       std::snprintf(text, sizeof text, "%s%.4g", rates.empty() ? "" : ", ", rate.value());
       rates += text;
     }
-    std::printf("  %-4s %5dx%-5d %s%s%s\n", v4l2::name_of(mode.format).c_str(), mode.width_px, mode.height_px,
-                rates.c_str(), rates.empty() ? "" : " /s", v4l2::readable(mode.format) ? "" : "  (not read)");
+    std::printf("  %-4s %5dx%-5d %s%s\n", format.c_str(), mode.width_px, mode.height_px, rates.c_str(),
+                rates.empty() ? "" : " /s");
   }
+  if (!unread.empty()) std::printf("  not read: %s\n", unread.c_str());
   for (const v4l2::Control& control : camera.controls) {
     std::printf("  %s = %lld, %lld to %lld%s\n", control.name.c_str(), static_cast<long long>(control.value),
                 static_cast<long long>(control.least), static_cast<long long>(control.most),

@@ -30,6 +30,7 @@ struct CommandLine {
   CalibrateCall calibrate;
   CurvatureCall curvature;
   SheetCall sheet;
+  TraceCall trace;
   BakeCall bake;
   MatteCall matte;
   VerifyCall verify;
@@ -50,6 +51,7 @@ struct CommandLine {
     add_calibrate();
     add_curvature();
     add_sheet();
+    add_trace();
     add_bake();
     add_matte();
     add_verify();
@@ -122,7 +124,7 @@ struct CommandLine {
     sub->add_option("--session", c.session,
                     "New folder to keep the session in: 'rinkaku render FOLDER' makes the same frames again");
     sub->add_option("--virtual-camera", c.virtual_camera,
-                    "Video output device (v4l2loopback) that other programs read as a camera");
+                    "Video output device (v4l2loopback), or pipewire, that other programs read as a camera");
     sub->add_flag("--headless", c.headless, "Without a window, until Ctrl-C or --seconds");
     add_force(sub, c.force);
   }
@@ -212,6 +214,23 @@ struct CommandLine {
     sub->add_option("--raise-deg", c.raise_deg, "From how far above the ground")
         ->check(CLI::Range(-89.0, 89.0))
         ->capture_default_str();
+    add_force(sub, c.force);
+    add_json(sub, c.json);
+  }
+
+  void add_trace() {
+    TraceCall& c = trace;
+    CLI::App* sub = add("trace", "Lay lines that were drawn on a frame onto the object seen there, to stay on it.",
+                        "rinkaku trace scene.toml --frame 40 --lines drawn.txt -o marks.csv",
+                        [&c] { return rinkaku::app::trace(c); });
+    sub->add_option("SCENE", c.scene, "Scene file (TOML)")->required();
+    sub->add_option("--frame", c.frame, "The frame that was drawn on, counted from 0")
+        ->required()
+        ->check(CLI::NonNegativeNumber);
+    sub->add_option("--lines", c.lines, "Text file, one line a row, in pixels of the frame: 610,300 615,304 622,310")
+        ->required();
+    sub->add_option("--object", c.object, "Which object was drawn on, if the scene has several");
+    sub->add_option("-o,--output", c.output, "File to write, for 'drawn' of the object's outline")->required();
     add_force(sub, c.force);
     add_json(sub, c.json);
   }

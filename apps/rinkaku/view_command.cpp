@@ -37,6 +37,7 @@ nlohmann::json to_json(const ViewReport& report) {
           {"damaged", report.health.damaged},
           {"reconnects", report.health.reconnects},
           {"dropped", report.dropped.before},
+          {"unshown", report.unshown},
           {"dropped_recording", report.dropped.drawn},
           {"output", report.run ? report.run->output : std::string()},
           {"notices", report.run ? report.run->notices : std::vector<std::string>()},

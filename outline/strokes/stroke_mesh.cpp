@@ -18,8 +18,8 @@ float lattice(int x, int y, int z, std::uint32_t draft) {
 }  // namespace
 
 float smooth_noise(const glm::vec3& place, std::uint32_t draft) {
-  const glm::vec3 low = glm::floor(place);
-  const glm::vec3 t = place - low, s = t * t * (3.0f - 2.0f * t);
+  const glm::vec3 low = glm::clamp(glm::floor(place), -1e9f, 1e9f);
+  const glm::vec3 t = glm::clamp(place - low, 0.0f, 1.0f), s = t * t * (3.0f - 2.0f * t);
   const glm::ivec3 c(low);
   float sum = 0;
   for (int corner = 0; corner < 8; ++corner) {

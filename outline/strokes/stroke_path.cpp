@@ -50,7 +50,7 @@ void StrokePath::trace(std::span<const std::uint32_t> vertices, std::span<const 
     const bool last = i + 1 == vertices.size();
     // Over small triangles not every vertex makes a sample.
     if (length < 0.35f * options.step_px && !last) continue;
-    const int count = std::clamp(static_cast<int>(std::ceil(length / options.step_px)), 1, 4000);
+    const int count = std::clamp(static_cast<int>(std::ceil(length / options.step_px)), 1, 500);
     for (int k = 1; k <= count; ++k) {
       StrokeSample s = k == count ? node : between(before, node, static_cast<float>(k) / static_cast<float>(count));
       s.way_px = samples_.back().way_px + length / static_cast<float>(count);

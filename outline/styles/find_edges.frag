@@ -1,8 +1,7 @@
 // For each pixel: where within it an edge runs (xy, 0 to 1), how strong it is (z), and the nearest depth there (w, near
-// / Z). The textures are twice as fine as the pixels.
+// / Z). The textures are twice as fine as the pixels and have a margin of two empty texels.
 uniform sampler2D surface;
 uniform sampler2D surface_depth;
-uniform ivec2 last_texel;
 uniform float depth_step_m;   // a larger step in depth is an edge
 uniform float cos_normal;     // normals farther apart are one
 uniform float contrast;       // a larger step between colours is one
@@ -10,12 +9,8 @@ uniform float near_m;
 
 layout(location = 0) out vec4 edge;
 
-vec4 colour_at(ivec2 t) {
-  return any(lessThan(t, ivec2(0))) || any(greaterThan(t, last_texel)) ? vec4(0.0) : texelFetch(surface, t, 0);
-}
-float depth_at(ivec2 t) {
-  return any(lessThan(t, ivec2(0))) || any(greaterThan(t, last_texel)) ? 0.0 : texelFetch(surface_depth, t, 0).x;
-}
+vec4 colour_at(ivec2 t) { return texelFetch(surface, t + 2, 0); }
+float depth_at(ivec2 t) { return texelFetch(surface_depth, t + 2, 0).x; }
 
 void main() {
   ivec2 base = 2 * ivec2(gl_FragCoord.xy);
@@ -39,31 +34,29 @@ void main() {
     sum += strength * vec3(0.5 * vec2(at) + 0.25, 1.0);
   }
 #else
-  // From each of the four texels to the right and down.
-  float covered[25], depths[25];
-  vec3 normals[25];
-  for (int i = 0; i < 25; ++i) {
-    ivec2 t = base + ivec2(i % 5, i / 5) - 1;
-    depths[i] = depth_at(t);
-    covered[i] = depths[i] > 0.0 ? 1.0 : 0.0;
+  // From each of the four texels to the right and down. Of the normals those of the texels and their neighbours will do.
+  float depths[25];
+  vec3 normals[9];
+  for (int i = 0; i < 25; ++i) depths[i] = depth_at(base + ivec2(i % 5, i / 5) - 1);
 #ifdef DEPTH_NORMALS
-    normals[i] = 2.0 * colour_at(t).xyz - 1.0;
+  for (int i = 0; i < 9; ++i) normals[i] = colour_at(base + ivec2(i % 3, i / 3)).xyz - 0.5;
 #endif
-  }
   for (int i = 0; i < 8; ++i) {
     ivec2 at = ivec2(i & 1, (i >> 1) & 1);
     bool down = i >= 4;
     int a = (at.y + 1) * 5 + at.x + 1, step = down ? 5 : 1;
     int b = a + step;
-    bool is_edge = covered[a] != covered[b];
+    bool both = depths[a] > 0.0 && depths[b] > 0.0;
+    bool is_edge = !both && max(depths[a], depths[b]) > 0.0;
 #ifdef DEPTH_NORMALS
-    if (covered[a] * covered[b] > 0.0) {
+    if (both) {
       // near / Z is linear across a plane, so what misses both continuations is a step.
       float from_a = abs(depths[b] - 2.0 * depths[a] + depths[a - step]);
       float from_b = abs(depths[a] - 2.0 * depths[b] + depths[b + step]);
       float jump = min(min(from_a, from_b), abs(depths[a] - depths[b]));
+      vec3 na = normals[at.y * 3 + at.x], nb = normals[at.y * 3 + at.x + (down ? 3 : 1)];
       is_edge = jump * near_m > depth_step_m * depths[a] * depths[b] ||
-                dot(normals[a], normals[b]) < cos_normal * length(normals[a]) * length(normals[b]);
+                dot(na, nb) < cos_normal * sqrt(dot(na, na) * dot(nb, nb));
     }
 #endif
     if (!is_edge) continue;

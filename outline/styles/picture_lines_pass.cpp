@@ -8,6 +8,8 @@
 
 #include "embedded/draw_edges.frag.h"
 #include "embedded/find_edges.frag.h"
+#include "embedded/spread_edges.frag.h"
+#include "embedded/spread_edges.vert.h"
 #include "embedded/whole_picture.vert.h"
 
 namespace rinkaku::outline {
@@ -34,15 +36,16 @@ PictureLinesPass::PictureLinesPass(passes::DrawnObject& object, passes::ObjectPa
       options_(options),
       surface_(options.method == Method::Laplacian ? SurfaceBuffer::Content::Picture : SurfaceBuffer::Content::Normals),
       edges_(std::vector<GLenum>{GL_RGBA32F}, gl::TextureTarget::Depth::None),
+      lines_(std::vector<GLenum>{GL_RGBA32F}, gl::TextureTarget::Depth::None),
       no_vertices_(make_empty_array()) {
-  const std::string_view vertex[] = {embedded::whole_picture_vert};
-  const std::string_view finding[] = {embedded::find_edges_frag}, drawing[] = {embedded::draw_edges_frag};
-  const std::string_view find_defines[] = {method_define(options.method)};
-  const std::string_view outside[] = {"OUTSIDE"}, both_sides[] = {"BOTH_SIDES"};
-  find_ = gl::Program("find edges", find_defines, vertex, finding);
+  const std::string_view vertex[] = {embedded::whole_picture_vert}, spreading[] = {embedded::spread_edges_vert};
+  const std::string_view finding[] = {embedded::find_edges_frag}, spread_part[] = {embedded::spread_edges_frag};
+  const std::string_view drawing[] = {embedded::draw_edges_frag};
+  const std::string_view find_defines[] = {method_define(options.method)}, outside[] = {"OUTSIDE"};
   std::span<const std::string_view> draw_defines;
   if (options.method == Method::Silhouette) draw_defines = outside;
-  if (options.method == Method::Laplacian) draw_defines = both_sides;
+  find_ = gl::Program("find edges", find_defines, vertex, finding);
+  spread_ = gl::Program("spread edges", {}, spreading, spread_part);
   draw_ = gl::Program("draw edges", draw_defines, vertex, drawing);
   const GLuint find = find_.name(), draw = draw_.name();
   glProgramUniform1i(find, find_.uniform("surface"), 0);
@@ -51,14 +54,15 @@ PictureLinesPass::PictureLinesPass(passes::DrawnObject& object, passes::ObjectPa
   glProgramUniform1f(find, find_.uniform("cos_normal"), std::cos(glm::radians(options.normal_deg)));
   glProgramUniform1f(find, find_.uniform("contrast"), options.contrast);
   glProgramUniform1f(find, find_.uniform("near_m"), static_cast<float>(passes::near_m));
-  glProgramUniform1i(draw, draw_.uniform("edges"), 0);
+  glProgramUniform1i(spread_.name(), spread_.uniform("edges"), 0);
+  glProgramUniform1i(draw, draw_.uniform("lines"), 0);
   glProgramUniform1i(draw, draw_.uniform("surface_depth"), 1);
   glProgramUniform3fv(draw, draw_.uniform("colour"), 1, glm::value_ptr(options.look.colour));
-  last_texel_ = find_.uniform("last_texel");
+  size_px_ = spread_.uniform("size_px");
+  reach_px_ = spread_.uniform("reach_px");
+  radius_px_ = spread_.uniform("radius_px");
   origin_ = draw_.uniform("origin");
-  last_pixel_ = draw_.uniform("last_pixel");
-  line_px_ = draw_.uniform("line_px");
-  reach_px_ = draw_.uniform("reach_px");
+  strength_ = draw_.uniform("strength");
 }
 
 double PictureLinesPass::reach_px(const passes::View& view) const {
@@ -67,16 +71,34 @@ double PictureLinesPass::reach_px(const passes::View& view) const {
 }
 
 void PictureLinesPass::find(const passes::DrawCall& call, const passes::PixelRect& rect) {
-  const gl::ElsewhereScope scope;
   surface_.draw(object_, call, rect, &body_);
-  glDisable(GL_DEPTH_TEST);
   edges_.begin(rect.width_px, rect.height_px);
   glUseProgram(find_.name());
-  glUniform2i(last_texel_, 2 * rect.width_px - 1, 2 * rect.height_px - 1);
   glBindTextureUnit(0, surface_.colour());
   glBindTextureUnit(1, surface_.depth());
   glBindVertexArray(no_vertices_.name());
+  glDisable(GL_DEPTH_TEST);
   glDrawArrays(GL_TRIANGLES, 0, 3);
+}
+
+void PictureLinesPass::spread(const passes::PixelRect& rect, double line_px, int reach) {
+  const double drawn_px = std::max(line_px, 1.0);
+  // Laplacian finds an edge on both its sides.
+  const double radius_px = options_.method == Method::Silhouette  ? drawn_px
+                           : options_.method == Method::Laplacian ? std::max(0.5 * drawn_px - 0.3, 0.3)
+                                                                  : 0.5 * drawn_px;
+  lines_.begin(rect.width_px, rect.height_px);
+  glUseProgram(spread_.name());
+  glUniform2i(size_px_, rect.width_px, rect.height_px);
+  glUniform1f(reach_px_, static_cast<float>(reach));
+  glUniform1f(radius_px_, static_cast<float>(radius_px));
+  glBindTextureUnit(0, edges_.colour(0));
+  glEnable(GL_PROGRAM_POINT_SIZE);
+  glEnable(GL_BLEND);
+  glBlendEquation(GL_MAX);
+  glDrawArrays(GL_POINTS, 0, rect.width_px * rect.height_px);
+  glBlendEquation(GL_FUNC_ADD);
+  glDisable(GL_PROGRAM_POINT_SIZE);
   glEnable(GL_DEPTH_TEST);
 }
 
@@ -87,15 +109,18 @@ void PictureLinesPass::draw_edges(const passes::DrawCall& call) {
                                 look.bounds.height_px + 2 * reach};
   const passes::PixelRect rect = intersection(grown, call.rect);
   if (rect.empty()) return;
-  find(call, rect);
+  const double line_px = widest_px(options_.look, look, call.view);
+  {
+    const gl::ElsewhereScope scope;
+    find(call, rect);
+    spread(rect, line_px, reach);
+  }
   const int x = rect.x_px - call.rect.x_px, y = rect.y_px - call.rect.y_px;
   glViewport(x, y, rect.width_px, rect.height_px);
   glUseProgram(draw_.name());
   glUniform2i(origin_, x, y);
-  glUniform2i(last_pixel_, rect.width_px - 1, rect.height_px - 1);
-  glUniform1f(line_px_, static_cast<float>(widest_px(options_.look, look, call.view)));
-  glUniform1i(reach_px_, reach - 1);
-  glBindTextureUnit(0, edges_.colour(0));
+  glUniform1f(strength_, static_cast<float>(std::min(line_px, 1.0)));
+  glBindTextureUnit(0, lines_.colour(0));
   glBindTextureUnit(1, surface_.depth());
   glBindVertexArray(no_vertices_.name());
   glDrawArrays(GL_TRIANGLES, 0, 3);

@@ -29,9 +29,10 @@ struct PictureLinesOptions {
 /// Lines that are found in pictures of the object: its depth and normals, what it covers, or its drawing.
 ///
 /// The object is drawn once more into textures of its own, as large as its rectangle and twice as fine, which are made
-/// with the first frame. Edges are placed to a quarter pixel; each pixel near one is covered by its distance. Except
-/// with Silhouette, lines lie half over the surface, and the pass comes before the body in an object's passes. Cost:
-/// the object's triangles again, and some (width + 2)^2 texel reads a pixel of its rectangle.
+/// with the first frame. Edges are placed to a quarter pixel; around each a square is drawn, in which pixels are
+/// covered by their distance. Except with Silhouette, lines lie half over the surface, and the pass comes before the
+/// body in an object's passes. Cost: the object's triangles again, some 40 texel reads a pixel of its rectangle, and
+/// (width + 2)^2 pixels an edge pixel.
 class PictureLinesPass : public passes::ObjectPass {
  public:
   /// `object` and `body` must outlive the pass; `body` draws the picture that Laplacian looks at.
@@ -44,15 +45,16 @@ class PictureLinesPass : public passes::ObjectPass {
 
  private:
   void find(const passes::DrawCall& call, const passes::PixelRect& rect);
+  void spread(const passes::PixelRect& rect, double line_px, int reach);
 
   passes::DrawnObject& object_;
   passes::ObjectPass& body_;
   PictureLinesOptions options_;
   SurfaceBuffer surface_;
-  gl::TextureTarget edges_;
-  gl::Program find_, draw_;
+  gl::TextureTarget edges_, lines_;
+  gl::Program find_, spread_, draw_;
   gl::VertexArrayHandle no_vertices_;
-  GLint last_texel_ = -1, origin_ = -1, last_pixel_ = -1, line_px_ = -1, reach_px_ = -1;
+  GLint size_px_ = -1, reach_px_ = -1, radius_px_ = -1, origin_ = -1, strength_ = -1;
 };
 
 }  // namespace rinkaku::outline

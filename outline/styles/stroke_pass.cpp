@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <numeric>
 #include <string_view>
 
 #include <glm/geometric.hpp>
@@ -53,8 +54,13 @@ StrokePass::StrokePass(passes::DrawnObject& object, const mesh::Mesh& mesh, cons
       depth_(SurfaceBuffer::Content::Depth),
       array_(make_array()) {
   options_.brush = nullptr;
-  if (options.lines != StrokeOptions::Lines::Contour) {
+  using Lines = StrokeOptions::Lines;
+  for (const DrawnLine& line : options_.drawn) {
+    for (const SurfacePlace& place : line) drawn_triangles_.push_back(mesh.triangles[place.triangle]);
+  }
+  if (options.lines == Lines::Inner || options.lines == Lines::All) {
     features_ = find_features(mesh, topology, options.features);
+    more_positions_ = features_.more_positions;
     inner_chains_ = Chains(features_.welded);
   }
   if (options.isophote > 0) bends_.emplace(topology);
@@ -131,9 +137,28 @@ void StrokePass::add_inner(const passes::DrawCall& call) {
   }
 }
 
+void StrokePass::add_drawn(const passes::DrawCall& call) {
+  const PositionView own = positions();
+  more_positions_.clear();
+  for (const DrawnLine& line : options_.drawn) {
+    for (const SurfacePlace& place : line) {
+      const glm::uvec3& v = drawn_triangles_[more_positions_.size()];
+      more_positions_.push_back((1 - place.b - place.c) * own[v.x] + place.b * own[v.y] + place.c * own[v.z]);
+    }
+  }
+  auto next = static_cast<std::uint32_t>(own_positions_);
+  for (const DrawnLine& line : options_.drawn) {
+    drawn_vertices_.resize(line.size());
+    std::iota(drawn_vertices_.begin(), drawn_vertices_.end(), next);
+    next += static_cast<std::uint32_t>(line.size());
+    add_line(call, drawn_vertices_, false, false);
+  }
+}
+
 void StrokePass::add_line(const passes::DrawCall& call, std::span<const std::uint32_t> vertices, bool closed,
                           bool contour) {
-  const float shortest = contour ? 1.5f : 5;  // in widths: less is a blot
+  // In widths: less is a blot.
+  const float shortest = contour ? 1.5f : options_.lines == StrokeOptions::Lines::Drawn ? 0 : 5;
   const passes::ObjectShape& shape = object_.shape();
   const passes::Look& look = shape.last_look();
   const double scale = scale_of(shape.world_from_object());
@@ -147,7 +172,7 @@ void StrokePass::add_line(const passes::DrawCall& call, std::span<const std::uin
   }
   widths_px_.clear();
   for (const std::uint32_t v : vertices) {
-    const glm::vec3 at = v < own_positions_ ? own[v] : features_.more_positions[v - own_positions_];
+    const glm::vec3 at = v < own_positions_ ? own[v] : more_positions_[v - own_positions_];
     const float depth = std::abs((look.to_pixels * glm::vec4(at, 1)).z);
     float width = width_at_px(options_.look, call.view.camera.fx_px, depth);
     if (bends_ && contour) {
@@ -161,7 +186,7 @@ void StrokePass::add_line(const passes::DrawCall& call, std::span<const std::uin
   PathOptions how;
   if (!options_.hand) how.smoothing = 0;
   if (bends_) how.most_growth = 0.15f;
-  path_.trace(vertices, widths_px_, own, features_.more_positions, own_positions_, look.to_pixels, closed, how);
+  path_.trace(vertices, widths_px_, own, more_positions_, own_positions_, look.to_pixels, closed, how);
   if (path_.samples().empty() || path_.length_px() < shortest * widths_px_.front()) return;
   const float period_px = options_.stroke_px > 0 ? options_.stroke_px : brush_.name() != 0 ? options_.brush_px : 0;
   const StrokeFit fit = memory_.fit(path_, period_px);
@@ -176,8 +201,10 @@ void StrokePass::add_line(const passes::DrawCall& call, std::span<const std::uin
 void StrokePass::collect(const passes::DrawCall& call) {
   strips_.clear();
   memory_.begin(object_.shape().last_look().to_pixels);
-  if (options_.lines != StrokeOptions::Lines::Inner) add_contour(call);
-  if (options_.lines != StrokeOptions::Lines::Contour) add_inner(call);
+  using Lines = StrokeOptions::Lines;
+  if (options_.lines == Lines::Contour || options_.lines == Lines::All) add_contour(call);
+  if (options_.lines == Lines::Inner || options_.lines == Lines::All) add_inner(call);
+  if (options_.lines == Lines::Drawn) add_drawn(call);
   ++frame_;
 }
 
@@ -200,12 +227,14 @@ void StrokePass::draw_edges(const passes::DrawCall& call) {
   glUseProgram(program_.name());
   glUniformMatrix4fv(clip_from_object_, 1, GL_FALSE, glm::value_ptr(call.clip_from_object));
   glUniform2f(viewport_px_, call.viewport_px.x, call.viewport_px.y);
-  glUniform2i(origin_, rect.x_px - call.rect.x_px, rect.y_px - call.rect.y_px);
+  glUniform2i(origin_, rect.x_px - call.rect.x_px - SurfaceBuffer::kMargin,
+              rect.y_px - call.rect.y_px - SurfaceBuffer::kMargin);
   // How far a ball as large as the object bulges before its contour at the line's inner rim, and a third more.
   const double rim_px = 0.5 * widest_px(options_.look, look, call.view) + 1;
   const double ball_px = std::max(call.view.camera.fx_px * radius_m_ / std::max(look.distance_m, passes::near_m), 1.0);
   glUniform1f(thickness_m_, static_cast<float>(1.33 * radius_m_ * std::sqrt(2 * rim_px / ball_px)));
-  glUniform2i(last_pixel_, rect.width_px - 1, rect.height_px - 1);
+  glUniform2i(last_pixel_, rect.width_px + 2 * SurfaceBuffer::kMargin - 1,
+              rect.height_px + 2 * SurfaceBuffer::kMargin - 1);
   glBindTextureUnit(0, depth_.depth());
   if (brush_.name() != 0) glBindTextureUnit(1, brush_.name());
   // Outside, what is opaque hides edges of the body behind it, which are drawn later.

@@ -8,6 +8,7 @@
 #include "mesh/mesh.h"
 #include "mesh/topology.h"
 #include "outline/strokes/chains.h"
+#include "outline/strokes/drawn_lines.h"
 #include "outline/strokes/features.h"
 #include "outline/strokes/radial_curvature.h"
 #include "outline/strokes/seen_runs.h"
@@ -24,10 +25,11 @@ namespace rinkaku::outline {
 
 struct StrokeOptions {
   LineLook look{};
-  enum class Lines { Contour, Inner, All } lines = Lines::Contour;
-  FeatureOptions features{};  ///< which inner lines
-  bool outside = false;       ///< lines lie outside the contour, behind the body; else half over it
-  bool hand = true;           ///< corners are rounded as a hand would; else lines are as exact as the mesh
+  enum class Lines { Contour, Inner, All, Drawn } lines = Lines::Contour;
+  std::vector<DrawnLine> drawn{};  ///< for Drawn: the lines
+  FeatureOptions features{};       ///< which inner lines
+  bool outside = false;            ///< lines lie outside the contour, behind the body; else half over it
+  bool hand = true;                ///< corners are rounded as a hand would; else lines are as exact as the mesh
   float opacity = 1;
   float taper_px = 0;  ///< at lines' ends
 
@@ -73,6 +75,7 @@ class StrokePass : public passes::ObjectPass {
   PositionView positions() const;
   void add_contour(const passes::DrawCall& call);
   void add_inner(const passes::DrawCall& call);
+  void add_drawn(const passes::DrawCall& call);
   void add_line(const passes::DrawCall& call, std::span<const std::uint32_t> vertices, bool closed, bool contour);
   void draw_depth(const passes::DrawCall& call, const passes::PixelRect& rect);
 
@@ -82,10 +85,13 @@ class StrokePass : public passes::ObjectPass {
   std::size_t own_positions_ = 0;
   Features features_;
   std::vector<std::uint32_t> welded_;
+  std::vector<glm::uvec3> drawn_triangles_;  // of options_.drawn's places, line after line: the mesh's vertices
+  std::vector<glm::vec3> more_positions_;    // after the object's own: the features', or this frame's drawn places
   Chains contour_chains_, inner_chains_;
   std::optional<RadialCurvature> bends_;
   // This frame's.
   std::vector<Segment> segments_;
+  std::vector<std::uint32_t> drawn_vertices_;
   std::vector<float> widths_px_;
   SeenRuns runs_;
   StrokePath path_;

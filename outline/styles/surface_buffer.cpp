@@ -21,9 +21,9 @@ SurfaceBuffer::SurfaceBuffer(Content content)
 
 void SurfaceBuffer::draw(passes::DrawnObject& object, const passes::DrawCall& call, const passes::PixelRect& rect,
                          passes::ObjectPass* body) {
-  target_.begin(fineness_ * rect.width_px, fineness_ * rect.height_px);
+  target_.begin(fineness_ * rect.width_px + 2 * kMargin, fineness_ * rect.height_px + 2 * kMargin);
   // The whole layer's viewport, moved so that the rectangle comes to lie in the target.
-  glViewport(fineness_ * (call.rect.x_px - rect.x_px), fineness_ * (call.rect.y_px - rect.y_px),
+  glViewport(fineness_ * (call.rect.x_px - rect.x_px) + kMargin, fineness_ * (call.rect.y_px - rect.y_px) + kMargin,
              fineness_ * call.rect.width_px, fineness_ * call.rect.height_px);
   if (!program_) {
     body->draw_surface(call);

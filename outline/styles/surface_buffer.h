@@ -7,9 +7,11 @@
 namespace rinkaku::outline {
 
 /// An object by itself, drawn into textures, for what finds lines in pictures or asks what the object hides. Covers the
-/// object's own rectangle and no more.
+/// object's own rectangle, with a margin of kMargin texels around it, and no more.
 class SurfaceBuffer {
  public:
+  static constexpr int kMargin = 2;
+
   enum class Content {
     Normals,  ///< colour is the unit normal in the camera's frame, as 0.5 n + 0.5 and alpha 1; two texels a pixel
     Picture,  ///< colour is the object as one of its passes draws it; two texels a pixel

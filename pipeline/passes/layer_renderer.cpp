@@ -20,16 +20,16 @@ LayerRenderer::LayerRenderer(std::vector<StyledObject> objects, const PixelRect&
 DrawCall LayerRenderer::call_for(const View& view, const StyledObject& styled, const PixelRect& rect) const {
   const glm::dmat4& world_from_object = styled.object->shape().world_from_object();
   const glm::dmat4 camera_from_object = to_matrix(view.camera_from_world) * world_from_object;
-  return {view, glm::mat4(clip_from_camera(view.camera, rect) * camera_from_object), rect,
+  return {view, glm::mat4(clip_from_view(view, rect) * camera_from_object), rect,
           glm::vec2(rect.width_px, rect.height_px),
           static_cast<float>(view.camera.fx_px * styled.object->shape().push_m())};
 }
 
-bool LayerRenderer::draw(const View& view, Layer& layer) {
-  layer.rect = {};
+PixelRect LayerRenderer::look_at_objects(const View& view, const PixelRect& picture) {
+  PixelRect covered;
   visible_.clear();
   for (StyledObject& styled : objects_) {
-    const Look& look = styled.object->look(view, picture_);
+    const Look& look = styled.object->look(view, picture);
     if (!look.visible) continue;
     double reach = 0;
     bool leaves_colour = false;
@@ -37,36 +37,71 @@ bool LayerRenderer::draw(const View& view, Layer& layer) {
       reach = std::max(reach, pass->reach_px(view));
       leaves_colour = leaves_colour || pass->leaves_colour();
     }
-    const PixelRect rect = intersection(grown(look.bounds, static_cast<int>(std::ceil(reach)) + 1), picture_);
+    const PixelRect rect = intersection(grown(look.bounds, static_cast<int>(std::ceil(reach)) + 1), picture);
     if (rect.empty()) continue;
-    if (leaves_colour) layer.rect = united(layer.rect, rect);
+    if (leaves_colour) covered = united(covered, rect);
     visible_.push_back({&styled, look.distance_m});
   }
-  if (layer.rect.empty()) return false;
   std::stable_sort(visible_.begin(), visible_.end(),
                    [](const Visible& a, const Visible& b) { return a.distance_m < b.distance_m; });
+  return covered;
+}
 
-  target_.begin(layer.rect.width_px, layer.rect.height_px);
+void LayerRenderer::begin(const PixelRect& rect) {
+  target_.begin(rect.width_px, rect.height_px);
   glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
   glEnable(GL_DEPTH_TEST);
   glDepthFunc(GL_GEQUAL);
   glDisable(GL_BLEND);
+}
+
+void LayerRenderer::draw_surfaces(const View& view, const PixelRect& rect) {
   for (Visible& v : visible_) {
     v.styled->object->upload();
-    const DrawCall call = call_for(view, *v.styled, layer.rect);
+    const DrawCall call = call_for(view, *v.styled, rect);
     for (auto& pass : v.styled->passes) pass->draw_surface(call);
   }
   glDisable(GL_CULL_FACE);
   glEnable(GL_BLEND);
   glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+}
+
+void LayerRenderer::draw_edges(const View& view, const PixelRect& rect) {
   glDepthMask(GL_FALSE);
   for (auto v = visible_.rbegin(); v != visible_.rend(); ++v) {
-    const DrawCall call = call_for(view, *v->styled, layer.rect);
+    const DrawCall call = call_for(view, *v->styled, rect);
     // The last pass (a line) lies behind the first (the body).
     for (auto pass = v->styled->passes.rbegin(); pass != v->styled->passes.rend(); ++pass) (*pass)->draw_edges(call);
   }
+}
+
+void LayerRenderer::read(Layer& layer) {
   layer.rgba.resize(static_cast<std::size_t>(layer.rect.width_px) * layer.rect.height_px * 4);
   target_.read(layer.rect.width_px, layer.rect.height_px, layer.rgba.data());
+}
+
+bool LayerRenderer::draw(const View& view, Layer& layer) {
+  layer.rect = {};
+  for (auto& pass : scene_passes_) layer.rect = united(layer.rect, pass->look(view, picture_));
+  layer.rect = united(layer.rect, look_at_objects(view, picture_));
+  if (layer.rect.empty()) return false;
+  for (auto& pass : scene_passes_) pass->draw_aside(view, layer.rect);
+  begin(layer.rect);
+  draw_surfaces(view, layer.rect);
+  for (auto& pass : scene_passes_) pass->draw(view, layer.rect);
+  draw_edges(view, layer.rect);
+  for (auto& pass : scene_passes_) pass->draw_over(view, layer.rect);
+  read(layer);
+  return true;
+}
+
+bool LayerRenderer::draw_objects(const View& view, const PixelRect& picture, Layer& layer) {
+  layer.rect = look_at_objects(view, picture);
+  if (layer.rect.empty()) return false;
+  begin(layer.rect);
+  draw_surfaces(view, layer.rect);
+  draw_edges(view, layer.rect);
+  read(layer);
   return true;
 }
 

@@ -16,4 +16,17 @@ glm::dmat4 clip_from_camera(const CameraModel& camera, const PixelRect& rect) {
   return m;
 }
 
+glm::dmat4 clip_from_view(const View& view, const PixelRect& rect) {
+  glm::dmat4 m = clip_from_camera(view.camera, rect);
+  if (!view.mirror) return m;
+  // Depth w - s h instead of near_m, with h the height above the mirror: 1 on the mirror and falling along each ray
+  // behind it, as h / w grows. Below the mirror it exceeds 1 and is cut off. s keeps rays that leave the mirror steeply
+  // above 0.
+  constexpr double s = 0.2;
+  const glm::dmat4 world_from_camera = to_matrix(inverse(view.camera_from_world));
+  const glm::dvec4 height = *view.mirror * world_from_camera;
+  for (int c = 0; c < 4; ++c) m[c][2] = m[c][3] - s * height[c];
+  return m;
+}
+
 }  // namespace rinkaku::passes

@@ -1,6 +1,9 @@
 #pragma once
 
+#include <optional>
+
 #include <glm/mat4x4.hpp>
+#include <glm/vec4.hpp>
 
 #include "pipeline/frame/camera_model.h"
 #include "pipeline/frame/rigid_transform.h"
@@ -12,6 +15,9 @@ namespace rinkaku::passes {
 struct View {
   CameraModel camera;
   RigidTransform camera_from_world;
+  /// For a mirror's eye, which lies behind the mirror: the mirror's plane (normal, offset) in the world. Only what lies
+  /// before it, where normal * point + offset > 0, is seen; the eye must lie behind.
+  std::optional<glm::dvec4> mirror{};
 };
 
 /// The one place where OpenCV's camera (+z forward, y down, pixel centres at whole numbers) becomes GL's clip space.
@@ -21,6 +27,9 @@ struct View {
 /// glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE), depth function GL_GEQUAL and a float depth buffer; resolution is then
 /// about 1e-7 of the distance everywhere. Clip w is the depth Z in metres.
 glm::dmat4 clip_from_camera(const CameraModel& camera, const PixelRect& rect);
+
+/// The same for a view; what lies behind its mirror is nearer than the near plane, which is the mirror's.
+glm::dmat4 clip_from_view(const View& view, const PixelRect& rect);
 
 /// Nearer than this nothing is drawn.
 inline constexpr double near_m = 1e-5;

@@ -113,7 +113,7 @@ bool needs_own_targets(LineMethod method) {
 }
 
 std::vector<std::string_view> line_style_keys() {
-  std::vector<std::string_view> keys = {"inner"};
+  std::vector<std::string_view> keys = {"inner", "drawn"};
   for (const KeyOf& of : keys_of_methods()) keys.push_back(of.key);
   return keys;
 }
@@ -137,6 +137,7 @@ LineStyleScene read_line_style(const Table& outline, LineMethod method) {
   s.wave = outline.number("wave", Limits::above(0, 10)).value_or(s.wave);
   s.redraw_frames = static_cast<int>(outline.integer("redraw_frames", 0, 100000).value_or(s.redraw_frames));
   if (outline.has("brush")) s.brush = existing_file(outline, "brush");
+  if (outline.has("drawn")) s.drawn = existing_file(outline, "drawn");
   s.brush_px = outline.number("brush_px", Limits::above(0, 10000)).value_or(s.brush_px);
   s.stroke_px = outline.number("stroke_px", {0, 100000}).value_or(s.stroke_px);
   s.gap = outline.number("gap", {0, 0.6}).value_or(s.gap);

@@ -77,6 +77,7 @@ struct LineStyleScene {
   double pressure = 0.6;        ///< Strokes: how much a stroke follows the pen's pressure
   double dryness = 0;           ///< Strokes: how much of the paper stays bare
   std::optional<InnerLinesScene> inner;
+  std::filesystem::path drawn;  ///< lines that were drawn on the object, see drawn_lines_file.h; empty: none
 };
 
 /// The keys of `outline` that read_line_style() reads, and the schema of those that are tables.

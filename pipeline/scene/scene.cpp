@@ -9,12 +9,22 @@ namespace {
 namespace fs = std::filesystem;
 
 toml::Schema scene_schema() {
-  toml::Schema schema = {{.path = "", .keys = {"plate", "track", "light", "object", "output"}}};
+  toml::Schema schema = {{.path = "", .keys = {"plate", "track", "light", "object", "water", "output"}}};
   for (const toml::Schema& section :
-       {plate_schema(), track_schema(), light_schema(), object_schema(), output_schema()}) {
+       {plate_schema(), track_schema(), light_schema(), object_schema(), water_schema(), output_schema()}) {
     schema.insert(schema.end(), section.begin(), section.end());
   }
   return schema;
+}
+
+/// What is drawn needs to know how the plate was filmed.
+void require_camera(const Scene& scene, const toml::Table& drawn, const std::string& section) {
+  if (!scene.track) {
+    throw drawn.error(section + " needs a camera pose", "add [track] with one of marker, board, poses, locked");
+  }
+  if (scene.plate.camera.empty()) {
+    throw drawn.error(section + " needs the camera's intrinsics", "add 'camera' to [plate], e.g. \"camera.yml\"");
+  }
 }
 
 Scene read(const toml::Document& document, const SceneOptions& options) {
@@ -30,13 +40,12 @@ Scene read(const toml::Document& document, const SceneOptions& options) {
   if (const auto track = root.table("track")) scene.track = read_track(*track);
   if (const auto light = root.table("light")) scene.light = read_light(*light);
   for (const toml::Table& object : root.tables("object")) {
-    if (!scene.track) {
-      throw object.error("[[object]] needs a camera pose", "add [track] with one of marker, board, poses, locked");
-    }
-    if (scene.plate.camera.empty()) {
-      throw object.error("[[object]] needs the camera's intrinsics", "add 'camera' to [plate], e.g. \"camera.yml\"");
-    }
+    require_camera(scene, object, "[[object]]");
     scene.objects.push_back(read_object(object));
+  }
+  if (const auto water = root.table("water")) {
+    require_camera(scene, *water, "[water]");
+    scene.water = read_water(*water);
   }
   if (const auto output = root.table("output")) {
     scene.output = read_output(*output);

@@ -10,6 +10,7 @@
 #include "pipeline/scene/output.h"
 #include "pipeline/scene/plate.h"
 #include "pipeline/scene/track.h"
+#include "pipeline/scene/water.h"
 
 namespace rinkaku::pipeline {
 
@@ -22,6 +23,7 @@ struct Scene {
   std::optional<TrackScene> track;
   LightScene light;
   std::vector<ObjectScene> objects;
+  std::optional<WaterScene> water;
   OutputScene output;
 };
 

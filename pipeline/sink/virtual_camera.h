@@ -7,11 +7,10 @@
 
 namespace rinkaku::sink {
 
-/// Opens a video output device (v4l2loopback, or hardware), which other programs read as a camera.
+/// Opens a video output device (v4l2loopback, or hardware), or "pipewire", which other programs read as a camera.
 ///
-/// Frames are written as YUYV in limited range: planar 8-bit 4:2:2 as it is, 4:2:0 with its chroma rows doubled, all
-/// else converted. What nobody reads is gone. Throws Error (Input) if there is no such device, or it takes no such
-/// pictures.
+/// Frames go there as YUYV, see YuyvPacker. What nobody reads is gone. Throws Error (Input) if there is no such device,
+/// or it takes no such pictures.
 std::unique_ptr<Sink> open_virtual_camera(const std::string& device, const Incoming& incoming);
 
 }  // namespace rinkaku::sink

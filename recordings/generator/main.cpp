@@ -16,6 +16,7 @@ constexpr const char* usage =
     "rinkaku-generate-recordings WHAT FOLDER [FIRST LAST]\n"
     "  WHAT    desk      the marker board on a desk, hand-held camera\n"
     "          tripod    the room that somebody walks through, locked camera\n"
+    "          brook     a dry brook, locked camera\n"
     "          mascot    mascot.glb\n"
     "          preview   the mascot from three sides, as PNG\n"
     "          check     finds the board in the desk's video and compares with its poses\n"
@@ -57,6 +58,8 @@ int main(int argc, char** argv) {
       make_desk(folder, frames);
     } else if (what == "tripod") {
       make_tripod(folder, frames);
+    } else if (what == "brook") {
+      make_brook(folder, frames);
     } else if (what == "mascot" || what == "preview") {
       make_mascot_files(folder, what == "preview");
     } else if (what == "check") {

@@ -16,4 +16,7 @@ void make_desk(const std::filesystem::path& folder, FrameRange frames);
 /// recordings/tripod: a room from a locked camera, somebody walks through.
 void make_tripod(const std::filesystem::path& folder, FrameRange frames);
 
+/// recordings/brook: a dry brook below a cliff from a locked camera, for painted water.
+void make_brook(const std::filesystem::path& folder, FrameRange frames);
+
 }  // namespace rinkaku::recordings

@@ -3,6 +3,7 @@
 
 #include "tests/apps/cli_tools.h"
 #include "tests/apps/fake_camera_tools.h"
+#include "tests/support/fake_camera/fake_camera.h"
 
 namespace rinkaku {
 namespace {
@@ -109,6 +110,41 @@ TEST(Session, VirtualCameraGetsTheFramesAsYuyv) {
   }
   const CliResult none = run_rinkaku(folder, "live scene.toml --camera /dev/null --virtual-camera /dev/null");
   EXPECT_EQ(none.status, 2);
+}
+
+// A PipeWire of its own, and GStreamer to read it.
+TEST(Session, AnotherProgramReadsTheCameraInPipewire) {
+  NEEDS_PRELOAD();
+  if (std::system("command -v pipewire wireplumber dbus-run-session gst-launch-1.0 >/dev/null 2>&1") != 0 ||
+      std::system("gst-inspect-1.0 pipewiresrc >/dev/null 2>&1") != 0) {
+    GTEST_SKIP() << "PipeWire, WirePlumber, D-Bus or GStreamer's pipewiresrc is not installed";
+  }
+  const ShotFolder folder;
+  folder.write("scene.toml", live_scene);
+  folder.write("inside",
+               "export XDG_RUNTIME_DIR=$PWD\n"
+               "pipewire >pipewire.log 2>&1 & server=$!\n"
+               "for i in $(seq 100); do [ -S pipewire-0 ] && break; sleep 0.1; done\n"
+               "wireplumber >wireplumber.log 2>&1 & manager=$!\n" +
+                   preloaded("") +
+                   " \"$RINKAKU\" live scene.toml --headless --seconds 15 --virtual-camera pipewire & "
+                   "player=$!\n"
+                   "for i in $(seq 100); do pw-cli ls Node 2>/dev/null | grep -q Video/Source && break; sleep 0.1; "
+                   "done\n"
+                   "timeout 12 gst-launch-1.0 -q pipewiresrc target-object=rinkaku num-buffers=3 ! "
+                   "video/x-raw,format=YUY2 ! filesink location=read.yuv\n"
+                   "wait $player; status=$?; kill $manager $server; exit $status\n");
+  const CliResult result = run_shell(folder.path(), "export RINKAKU; timeout 60 dbus-run-session bash ./inside");
+  ASSERT_EQ(result.status, 0) << result.err;
+  const std::string read = text_of(folder / "read.yuv");
+  constexpr std::size_t bytes = 640 * 480 * 2;
+  ASSERT_EQ(read.size(), 3 * bytes);
+  // The fake camera's pictures differ by one value in all samples: what was read is one of them, bit by bit.
+  const auto sample_at = [&read](std::size_t i) { return static_cast<std::uint8_t>(read[2 * bytes + i]); };
+  const int shift = sample_at(0) - fake_sample(0, 0);
+  for (std::size_t i = 0; i < bytes; ++i) {
+    ASSERT_EQ(sample_at(i), static_cast<std::uint8_t>(fake_sample(0, i) + shift)) << i;
+  }
 }
 
 }  // namespace

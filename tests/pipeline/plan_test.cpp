@@ -210,6 +210,16 @@ TEST(Plan, StreamsThatCantBeCopiedAreSaidWithTheReason) {
   EXPECT_EQ(stage(plan, "copy-streams").why, request.no_streams_because);
 }
 
+TEST(Plan, WaterRunsOnlyIfTheSceneHasIt) {
+  Scene scene = drawn_scene();
+  EXPECT_FALSE(plan_of(scene).runs("water"));
+  scene.water = WaterScene{};
+  EXPECT_TRUE(plan_of(scene).runs("water"));
+  scene.objects.clear();  // water alone is tracked, drawn and composited
+  for (const char* stage : {"track", "water", "draw", "composite"}) EXPECT_TRUE(plan_of(scene).runs(stage)) << stage;
+  EXPECT_FALSE(plan_of(scene).runs("toon"));
+}
+
 TEST(Plan, NoSuchStageDoesNotRun) { EXPECT_FALSE(plan_of(drawn_scene()).runs("teleport")); }
 
 // Every combination of what a scene can have.

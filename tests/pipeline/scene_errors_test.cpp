@@ -75,10 +75,11 @@ INSTANTIATE_TEST_SUITE_P(
             "NothingNear", object + "velocity = \"cow.rgn\"\n",
             "DIR/scene.toml:8:1: unknown key 'velocity' in [[object]]; known keys are anchor, colour, crease_deg, "
             "fluffy, height_m, holdout, mesh, name, outline, position_m, regions, rotation_deg, scale, toon and up"},
-        BadScene{"TableOfALaterVersion", object + "[water]\n",
-                 "DIR/scene.toml:8:2: unknown key 'water'; known keys are light, object, output, plate and track"},
+        BadScene{"TableOfALaterVersion", object + "[fog]\n",
+                 "DIR/scene.toml:8:2: unknown key 'fog'; known keys are light, object, output, plate, track and water"},
         BadScene{"TablesOfALaterVersion", object + "[[foreground]]\nname = \"x\"\n",
-                 "DIR/scene.toml:8:3: unknown key 'foreground'; known keys are light, object, output, plate and track"},
+                 "DIR/scene.toml:8:3: unknown key 'foreground'; known keys are light, object, output, plate, track and "
+                 "water"},
         BadScene{"CameraAndRecording", "[plate]\ndevice = \"/dev/video0\"\nvideo = \"a.mp4\"\n",
                  "DIR/scene.toml:3:9: 'video' in [plate] can't stand beside 'device'; keep one of them"},
         BadScene{"CameraKeyOfARecording", "[plate]\nvideo = \"a.mp4\"\nsize_px = [640, 480]\n",

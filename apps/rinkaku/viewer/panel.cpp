@@ -90,7 +90,7 @@ void Panel::draw_transport(const SceneFile& file, const PanelFacts& facts, Panel
     const auto& health = facts.status.health;
     ImGui::Text("capture to screen %.0f ms", facts.latency_ms);
     ImGui::Text("lost: %lld before us, %lld by us; damaged %lld", static_cast<long long>(health.missed),
-                static_cast<long long>(facts.status.dropped.before + facts.status.dropped.drawn),
+                static_cast<long long>(facts.status.dropped.before + facts.status.unshown),
                 static_cast<long long>(health.damaged));
   }
   wish.pause = ImGui::Button(facts.paused ? "go on" : "pause");

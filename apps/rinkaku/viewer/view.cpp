@@ -111,6 +111,7 @@ ViewReport View::run() {
   const Viewer::Status status = viewer_.status();
   report_.health = status.health;
   report_.dropped = status.dropped;
+  report_.unshown = status.unshown;
   if (const std::exception_ptr failure = run_.take_failure(); failure && !window_) std::rethrow_exception(failure);
   report_.run = run_.report();
   return std::move(report_);

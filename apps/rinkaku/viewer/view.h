@@ -26,6 +26,7 @@ struct ViewReport {
   pipeline::StageTimes interval;  ///< from one frame on the screen to the next
   source::Health health;
   pipeline::Line::Dropped dropped;
+  std::int64_t unshown = 0;
   std::optional<pipeline::RenderReport> run;  ///< of the last run, if it ended well
 };
 

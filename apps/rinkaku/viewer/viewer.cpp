@@ -84,6 +84,7 @@ void Viewer::finished(const pipeline::Work& work) {
     // A window that isn't drawn, e.g. minimised, must not stop the run for good.
     const auto taken = [this] { return !newest_ || letting_go_; };
     if (wait_for_window_) taken_.wait_for(lock, std::chrono::milliseconds(500), taken);
+    if (newest_) ++status_.unshown;
     newest_ = Shown{work.frame, work.stage_ms, work.pose.has_value()};
   }
   woken_();

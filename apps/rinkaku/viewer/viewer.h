@@ -55,7 +55,8 @@ class Viewer final : public pipeline::Watcher {
     std::vector<std::string> stages;  ///< of Shown::stage_ms
     source::Health health;
     pipeline::Line::Dropped dropped;
-    std::string trouble;  ///< why the newest change wasn't drawn; empty if it was
+    std::int64_t unshown = 0;  ///< finished frames that a newer one took the place of before they were shown
+    std::string trouble;       ///< why the newest change wasn't drawn; empty if it was
     bool live = false;
     bool changing = false;  ///< a change is being prepared
   };

@@ -291,7 +291,7 @@ TEST_F(Styles, TargetsAreMadeOnlyForThoseThatNeedThem) {
   const glm::dmat4 place(1);
   EXPECT_EQ(targets_of([&] { return lined(mesh, place, 3); }), 0);
   EXPECT_EQ(targets_of([&] { return hulled(mesh, place, look(3)); }), 0);
-  EXPECT_EQ(targets_of([&] { return pictured(mesh, place, {}); }), 2);  // the surface, its edges
+  EXPECT_EQ(targets_of([&] { return pictured(mesh, place, {}); }), 3);  // the surface, its edges, lines along them
   EXPECT_EQ(targets_of([&] { return stroked(mesh, place, {}); }), 1);   // the surface's depth
 }
 

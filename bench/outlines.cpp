@@ -1,0 +1,172 @@
+// Frames a second of every way of drawing lines, as parts of the uniform hull's (Raskar and Cohen), for a bumpy ring of
+// as many vertices as the rows of tables 3.2 and 4.2 of Matsuo's thesis have, at 1024x768. The ways take turns frame by
+// frame, so that what else the machine does falls on all of them alike; medians count.
+//
+//   rinkaku-bench-outlines [FRAMES [MOST_VERTICES]]
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <functional>
+#include <memory>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include <glm/gtc/matrix_transform.hpp>
+
+#include "mesh/assemble.h"
+#include "mesh/topology.h"
+#include "outline/curvature.h"
+#include "outline/line_width.h"
+#include "pipeline/frame/error.h"
+#include "pipeline/gl/context.h"
+#include "pipeline/outline_passes.h"
+#include "pipeline/passes/layer_renderer.h"
+#include "pipeline/passes/toon/band_borders.h"
+#include "pipeline/passes/toon/toon_pass.h"
+
+namespace {
+
+using namespace rinkaku;
+
+mesh::Mesh ring(std::size_t vertices) {
+  constexpr double turn = 2 * std::numbers::pi;
+  const auto across = static_cast<std::uint32_t>(std::max(8.0, std::round(std::sqrt(vertices / 2.2))));
+  const auto around = static_cast<std::uint32_t>((vertices + across / 2) / across);
+  mesh::Soup soup;
+  for (std::uint32_t i = 0; i < around; ++i) {
+    for (std::uint32_t j = 0; j < across; ++j) {
+      const double u = turn * i / around, v = turn * j / across;
+      const double thick = 0.4 + 0.05 * std::sin(5 * u) * std::cos(3 * v), radius = 1 + thick * std::cos(v);
+      soup.positions.emplace_back(radius * std::cos(u), radius * std::sin(u), thick * std::sin(v));
+      const std::uint32_t next_i = (i + 1) % around, next_j = (j + 1) % across;
+      const std::uint32_t a = i * across + j, b = next_i * across + j, c = next_i * across + next_j,
+                          d = i * across + next_j;
+      soup.triangles.insert(soup.triangles.end(), {{a, b, c}, {a, c, d}});
+    }
+  }
+  mesh::Part part;
+  part.triangle_count = static_cast<std::uint32_t>(soup.triangles.size());
+  soup.parts = {part};
+  soup.materials.emplace_back();
+  return mesh::assemble(std::move(soup), 60).mesh;
+}
+
+struct Way {
+  std::string name;
+  std::unique_ptr<passes::LayerRenderer> renderer;
+  std::function<void()> before_each_frame;
+  std::vector<double> ms{};
+};
+
+constexpr int kWidth_px = 1024, kHeight_px = 768;
+
+passes::View view_of(int frame) {
+  passes::View view;
+  view.camera.width_px = kWidth_px, view.camera.height_px = kHeight_px;
+  view.camera.fx_px = view.camera.fy_px = 1000;
+  view.camera.cx_px = (kWidth_px - 1) / 2.0, view.camera.cy_px = (kHeight_px - 1) / 2.0;
+  const glm::dmat4 turned = glm::rotate(glm::rotate(glm::dmat4(1), 0.9, {1, 0, 0}), 0.01 * frame, {0.2, 0.3, 1});
+  view.camera_from_world = {glm::quat_cast(glm::dmat3(turned)), {0, 0, 4.4}};
+  return view;
+}
+
+std::unique_ptr<passes::LayerRenderer> renderer_of(const mesh::Mesh& mesh,
+                                                   const std::optional<pipeline::OutlineScene>& line) {
+  const passes::ToonOptions toon;
+  passes::StyledObject styled;
+  const glm::dmat4 place(1);
+  styled.object =
+      std::make_unique<passes::DrawnObject>(passes::ObjectShape(mesh, place, passes::band_borders(mesh, place, toon)));
+  styled.passes.push_back(std::make_unique<passes::ToonPass>(*styled.object, mesh, toon));
+  if (line) pipeline::add_outline(styled, mesh, *line, pipeline::line_width_factors(mesh, *line));
+  std::vector<passes::StyledObject> objects;
+  objects.push_back(std::move(styled));
+  return std::make_unique<passes::LayerRenderer>(std::move(objects), passes::PixelRect{0, 0, kWidth_px, kHeight_px});
+}
+
+std::vector<Way> ways_for(const mesh::Mesh& mesh) {
+  std::vector<Way> ways;
+  for (const pipeline::NamedMethod& named : pipeline::line_methods()) {
+    pipeline::OutlineScene line;
+    line.method = named.method;
+    line.taper_px = pipeline::usual_taper_px(named.method);
+    if (pipeline::brings_inner_lines(named.method)) line.style.inner.emplace();
+    ways.push_back({named.word, renderer_of(mesh, line), [] {}});
+    if (named.method != pipeline::LineMethod::Curvature) continue;
+    // What a shape that changes every frame costs more: its curvature, and the widths that follow it.
+    auto topology = std::make_shared<mesh::Topology>(mesh::topology(mesh));
+    auto solver = std::make_shared<outline::CurvatureSolver>(*topology, outline::CurvatureMethod::Icnc);
+    ways.push_back({"curvature each frame", renderer_of(mesh, line), [topology, solver] {
+                      const outline::Curvature& found = solver->solve(topology->points);
+                      const double k95 = outline::k95(found);
+                      outline::line_width_factors(*topology, found, k95, {});
+                    }});
+  }
+  ways.push_back({"none", renderer_of(mesh, std::nullopt), [] {}});
+  return ways;
+}
+
+double median(std::vector<double> values) {
+  std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2), values.end());
+  return values[values.size() / 2];
+}
+
+void measure(std::size_t vertices, int frames, bool header) {
+  const mesh::Mesh mesh = ring(vertices);
+  std::vector<Way> ways = ways_for(mesh);
+  passes::Layer layer;
+  constexpr int warm = 3;
+  for (int frame = 0; frame < frames + warm; ++frame) {
+    const passes::View view = view_of(frame);
+    for (Way& way : ways) {
+      const auto start = std::chrono::steady_clock::now();
+      way.before_each_frame();
+      way.renderer->draw(view, layer);
+      const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - start;
+      if (frame >= warm) way.ms.push_back(took.count());
+    }
+  }
+  const auto hull = std::find_if(ways.begin(), ways.end(), [](const Way& way) { return way.name == "hull"; });
+  const double hull_ms = median(hull->ms);
+  if (header) {
+    std::printf("| vertices | hull, fps |");
+    for (const Way& way : ways) {
+      if (way.name != "hull") std::printf(" %s |", way.name.c_str());
+    }
+    std::printf("\n| --- | --- |");
+    for (std::size_t i = 1; i < ways.size(); ++i) std::printf(" --- |");
+    std::printf("\n");
+  }
+  std::printf("| %u | %.1f |", mesh.point_count, 1000 / hull_ms);
+  for (const Way& way : ways) {
+    if (way.name != "hull") std::printf(" %.2f |", hull_ms / median(way.ms));
+  }
+  std::printf("\n");
+  std::fflush(stdout);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const int frames = argc > 1 ? std::max(std::atoi(argv[1]), 1) : 60;
+  const std::size_t most = argc > 2 ? static_cast<std::size_t>(std::max(std::atoi(argv[2]), 0)) : 100000;
+  try {
+    const auto context = gl::Context::headless();
+    std::printf("%s, %dx%d, medians of %d frames; frames a second as parts of the uniform hull's\n\n",
+                context->renderer().c_str(), kWidth_px, kHeight_px, frames);
+    bool header = true;
+    for (const std::size_t vertices : {503, 1170, 2082, 3242, 485, 4250, 15859, 28741, 63576}) {
+      if (vertices > most) continue;
+      measure(vertices, frames, header);
+      header = false;
+    }
+  } catch (const Error& error) {
+    std::fprintf(stderr, "%s\n", error.what());
+    return error.exit_status();
+  }
+  return 0;
+}

@@ -1,0 +1,376 @@
+// The figures of docs/water.md: times, flow, paths, coverage and flicker. Run it on a quiet machine; all but the times
+// come out the same everywhere.
+//
+//     build/release/bench/rinkaku-bench-water [times|flow|coverage|flicker]...
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <ctime>
+#include <memory>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include <glm/geometric.hpp>
+
+#include "pipeline/gl/context.h"
+#include "pipeline/passes/layer_renderer.h"
+#include "water/depth_order.h"
+#include "water/painting.h"
+#include "water/pass/water_pass.h"
+#include "water/scatter.h"
+
+namespace rinkaku::bench {
+namespace {
+
+using namespace rinkaku::water;
+
+double cpu_ms() {
+  timespec t{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
+  return static_cast<double>(t.tv_sec) * 1e3 + static_cast<double>(t.tv_nsec) / 1e6;
+}
+double wall_ms() {
+  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+// A river that fills a picture of 400 x 400, seen from a bank: two shores, inflow on the left, outflow on the right.
+struct River {
+  CameraModel camera{400, 400, 360, 360, 199.5, 199.5, {}};
+  RigidTransform camera_from_world;
+  std::unique_ptr<Surface> surface;
+  std::vector<ArrowKey> arrows;
+
+  River() {
+    // Looking along +y, 35 degrees down, from 3 m above the water.
+    const double tilt = std::numbers::pi / 2 + 35 * std::numbers::pi / 180;
+    const glm::dmat3 turn(glm::dvec3(1, 0, 0), glm::dvec3(0, std::cos(tilt), std::sin(tilt)),
+                          glm::dvec3(0, -std::sin(tilt), std::cos(tilt)));
+    camera_from_world.rotation = glm::normalize(glm::quat_cast(turn));
+    camera_from_world.translation_m = -(camera_from_world.rotation * glm::dvec3(0, 0, 3));
+    SurfaceOutline outline;
+    outline.corners = {{-6, 1.5, 0}, {6, 1.5, 0}, {8, 5, 0}, {9, 9, 0}, {2, 8.2, 0}, {-3, 9.4, 0}, {-9, 9, 0}};
+    outline.open_edges = {2, 6, 1};
+    surface = std::make_unique<Surface>("bench", outline, glm::dvec3(0, 0, 3));
+    const double px[12][4] = {{30, 330, 90, 335},   {150, 340, 215, 330}, {280, 345, 350, 360}, {60, 240, 110, 250},
+                              {170, 260, 225, 240}, {290, 240, 345, 255}, {40, 160, 70, 165},   {130, 150, 165, 140},
+                              {220, 165, 255, 160}, {320, 150, 350, 160}, {100, 100, 118, 98},  {280, 98, 300, 102}};
+    ArrowKey key;
+    for (const auto& a : px) {
+      key.arrows.push_back(arrow_from_screen("bench", *surface, camera, camera_from_world, {a[0], a[1]}, {a[2], a[3]}));
+    }
+    arrows.push_back(key);
+  }
+  Outlook outlook() const { return {camera, camera_from_world}; }
+};
+
+// What is mirrored: trees and clouds all around, made of noise.
+Picture surroundings() {
+  Picture p;
+  p.width_px = 512, p.height_px = 256;
+  for (int y = 0; y < 256; ++y) {
+    for (int x = 0; x < 512; ++x) {
+      const double tree = scattered(static_cast<std::uint64_t>(x / 8), 1);
+      const double shade = 0.3 + 0.7 * scattered(static_cast<std::uint64_t>(x / 4 + 1000 * (y / 4)), 2);
+      const double cloud = scattered(static_cast<std::uint64_t>(x / 24 + 1000 * (y / 10)), 3);
+      const bool sky = y < 20 + 95 * tree;
+      p.samples.push_back(static_cast<std::uint8_t>(sky ? 120 + 130 * cloud : 90 * shade));
+      p.samples.push_back(static_cast<std::uint8_t>(sky ? 170 + 80 * cloud : 150 * shade));
+      p.samples.push_back(static_cast<std::uint8_t>(sky ? 230 + 20 * cloud : 70 * shade));
+    }
+  }
+  return p;
+}
+
+ReferencePicture reference_of(const River& river) {
+  ReferencePicture reference;
+  MirrorOptions mirror;
+  mirror.sky.panorama = surroundings();
+  reference.paint(*river.surface, river.camera, river.camera_from_world, mirror, nullptr, nullptr, 1, 2);
+  return reference;
+}
+
+// Paints and draws a river frame by frame.
+class Painter {
+ public:
+  Painter(const River& river, const ReferencePicture& reference, const PaintingOptions& options)
+      : river_(river),
+        reference_(reference),
+        painting(*river.surface, river.arrows, {}, river.outlook(), options),
+        renderer_({}, {0, 0, river.camera.width_px, river.camera.height_px}) {
+    auto pass = std::make_unique<WaterPass>(line_brushes(), drop_brushes());
+    pass_ = pass.get();
+    renderer_.add(std::move(pass));
+  }
+  const Strokes& strokes(std::int64_t frame) {
+    return painting.paint(frame, river_.camera, river_.camera_from_world,
+                          [this]() -> const ReferencePicture& { return reference_; });
+  }
+  const passes::Layer& draw(const Strokes& strokes) {
+    const PaintedSurface painted{river_.surface.get(), strokes};
+    pass_->show({&painted, 1}, {}, {});
+    renderer_.draw({river_.camera, river_.camera_from_world}, layer_);
+    return layer_;
+  }
+
+ private:
+  const River& river_;
+  const ReferencePicture& reference_;
+
+ public:
+  Painting painting;
+
+ private:
+  passes::LayerRenderer renderer_;
+  WaterPass* pass_;
+  passes::Layer layer_;
+};
+
+double median(std::vector<double> v) {
+  std::nth_element(v.begin(), v.begin() + static_cast<std::ptrdiff_t>(v.size() / 2), v.end());
+  return v[v.size() / 2];
+}
+
+void times(const River& river, const ReferencePicture& reference) {
+  for (const int count : {7000, 25000, 50000, 100000, 200000}) {
+    PaintingOptions options;
+    options.strokes = count;
+    const double start = cpu_ms();
+    Painter painter(river, reference, options);
+    painter.strokes(0);
+    const double made = cpu_ms() - start;
+    std::vector<double> paint, draw, draw_cpu;
+    std::size_t drawn = 0;
+    double prepared = 0;
+    for (int frame = 1; frame <= 120; ++frame) {
+      const double a = cpu_ms();
+      const Strokes& strokes = painter.strokes(frame);
+      const double b = cpu_ms(), bw = wall_ms();
+      prepared += b - a;
+      paint.push_back(b - a);
+      if (frame % 4 == 0) {
+        painter.draw(strokes);
+        draw.push_back(wall_ms() - bw);
+        draw_cpu.push_back(cpu_ms() - b);
+      }
+      drawn = strokes.size();
+    }
+    std::printf(
+        "%6d strokes (%6zu in the picture): set-up %.0f ms, painting %.2f ms a frame, drawing %.2f ms (CPU %.2f); "
+        "120 frames prepared in %.0f ms\n",
+        count, drawn, made, median(paint), median(draw), median(draw_cpu), made + prepared);
+  }
+  std::vector<float> depths;
+  for (std::uint64_t i = 0; i < 100000; ++i) depths.push_back(static_cast<float>(3 + 27 * scattered(i, 1)));
+  DepthOrder order;
+  std::vector<double> sort;
+  for (int i = 0; i < 100; ++i) {
+    const double a = cpu_ms();
+    order.farthest_first(depths);
+    sort.push_back(cpu_ms() - a);
+  }
+  std::printf("100,000 strokes sorted in %.2f ms\n", median(sort));
+}
+
+void flow(const River& river) {
+  for (const auto method : {FlowOptions::Method::Arrows, FlowOptions::Method::DivergenceFree}) {
+    FlowOptions options;
+    options.method = method;
+    Flow flow(*river.surface, river.arrows, options);
+    flow.set_frame(0);
+    const double h = flow.grid().cell_m / 8;
+    double divergence = 0, gradient = 0, most_across = 0, speed = 0;
+    int samples = 0;
+    for (int y = 0; y < 200; ++y) {
+      for (int x = 0; x < 200; ++x) {
+        const glm::dvec2 p = river.surface->least() +
+                             (river.surface->most() - river.surface->least()) * (glm::dvec2(x + 0.5, y + 0.5) / 200.0);
+        if (!river.surface->contains(p)) continue;
+        const glm::dvec2 dx = (flow.velocity(p + glm::dvec2(h, 0)) - flow.velocity(p - glm::dvec2(h, 0))) / (2 * h);
+        const glm::dvec2 dy = (flow.velocity(p + glm::dvec2(0, h)) - flow.velocity(p - glm::dvec2(0, h))) / (2 * h);
+        divergence += std::pow(dx.x + dy.y, 2);
+        gradient += glm::dot(dx, dx) + glm::dot(dy, dy);
+        speed += glm::length(flow.velocity(p)), ++samples;
+      }
+    }
+    for (const BorderEdge& e : river.surface->edges()) {
+      if (e.open) continue;
+      const glm::dvec2 d = glm::normalize(e.b - e.a);
+      for (int k = 0; k < 100; ++k) {
+        const glm::dvec2 v = flow.velocity(e.a + (e.b - e.a) * ((k + 0.5) / 100));
+        most_across = std::max(most_across, std::abs(v.x * d.y - v.y * d.x));
+      }
+    }
+    const Deviation d = flow.deviation();
+    std::printf(
+        "%s: |div|/|grad| %.4f, most across a shore %.3f of the mean speed, from the arrows %.1f degrees (mean), "
+        "%.1f (most), speed %.2f\n",
+        method == FlowOptions::Method::Arrows ? "arrows" : "divergence-free", std::sqrt(divergence / gradient),
+        most_across / (speed / samples), d.mean_rad * 180 / std::numbers::pi, d.largest_rad * 180 / std::numbers::pi,
+        d.speed_ratio);
+  }
+}
+
+void coverage(const River& river, const ReferencePicture& reference) {
+  PaintingOptions options;
+  Painter painter(river, reference, options);
+  // Which pixels are water for certain: two pixels inside the border.
+  std::vector<char> wet(400 * 400, 0);
+  for (int y = 0; y < 400; ++y) {
+    for (int x = 0; x < 400; ++x) {
+      const SeenPoint p = back_projected(*river.surface, river.camera, river.camera_from_world, glm::dvec2(x, y));
+      wet[y * 400 + x] = p.found && river.surface->contains(p.at);
+    }
+  }
+  double worst = 0, mean = 0, most_births = 0, most_change = 0;
+  std::size_t pixels = 0;
+  std::vector<float> opacity(painter.painting.particles().list().size(), -1);
+  std::vector<std::uint32_t> serial(opacity.size(), 0);
+  for (int frame = 0; frame < 1000; ++frame) {
+    const passes::Layer& layer = painter.draw(painter.strokes(frame));
+    std::size_t bare = 0;
+    pixels = 0;
+    for (int y = 0; y < layer.rect.height_px; ++y) {
+      for (int x = 0; x < layer.rect.width_px; ++x) {
+        if (!wet[(y + layer.rect.y_px) * 400 + x + layer.rect.x_px]) continue;
+        ++pixels;
+        // Bare: less than half covered.
+        if (layer.rgba[(static_cast<std::size_t>(y) * layer.rect.width_px + x) * 4 + 3] < 128) ++bare;
+      }
+    }
+    const double part = static_cast<double>(bare) / static_cast<double>(pixels);
+    worst = std::max(worst, part), mean += part / 1000;
+    const Particles& particles = painter.painting.particles();
+    const Census& census = particles.census();
+    if (frame > 0) {
+      most_births = std::max(
+          most_births, (static_cast<double>(census.births) - census.flowed_in) / static_cast<double>(census.alive));
+    }
+    for (std::size_t i = 0; i < opacity.size(); ++i) {
+      const Particle& p = particles.list()[i];
+      const bool there = p.state != Particle::State::Free;
+      const float now = there ? p.opacity : 0,
+                  before = opacity[i] >= 0 && (!there || serial[i] == p.serial) ? opacity[i] : 0;
+      if (frame > 0) most_change = std::max(most_change, static_cast<double>(std::abs(now - before)));
+      opacity[i] = now, serial[i] = p.serial;
+    }
+    if (frame % 250 == 249) {
+      std::printf("frame %d: bare %.3f %%, alive %zu, leaving %zu, births %zu, flowed in %.1f\n", frame, 100 * part,
+                  census.alive, census.leaving, census.births, census.flowed_in);
+    }
+  }
+  std::printf(
+      "1,000 frames: bare water %.3f %% (mean), %.3f %% (worst frame); births beyond inflow at most %.2f %% a frame; "
+      "opacity changes at most %.3f a frame\n",
+      100 * mean, 100 * worst, 100 * most_births, most_change);
+}
+
+// Mean squared difference between a frame and the next one carried back along the flow (Lai et al. 2018), and the
+// standard deviation of brightness.
+struct Flicker {
+  double warping = 0, contrast = 0, bare = 0;
+};
+Flicker flicker(const River& river, const ReferencePicture& reference, const PaintingOptions& options, int frames) {
+  Painter painter(river, reference, options);
+  Flow flow(*river.surface, river.arrows, options.flow);
+  flow.set_frame(0);
+  struct Way {
+    int from;
+    float x, y;
+  };
+  std::vector<Way> ways;
+  for (int y = 4; y < 396; ++y) {
+    for (int x = 4; x < 396; ++x) {
+      const SeenPoint p = back_projected(*river.surface, river.camera, river.camera_from_world, glm::dvec2(x, y));
+      if (!p.found || !river.surface->contains(p.at)) continue;
+      glm::dvec2 q = p.at, velocity;
+      carry_along(flow, *river.surface, options.seconds_per_frame, q, velocity);
+      const glm::dvec3 c = river.camera_from_world * river.surface->to_world(q);
+      const glm::dvec2 to = to_pixels(river.camera, {c.x / c.z, c.y / c.z});
+      if (to.x < 1 || to.y < 1 || to.x > 397 || to.y > 397 || !river.surface->contains(q)) continue;
+      ways.push_back({y * 400 + x, static_cast<float>(to.x), static_cast<float>(to.y)});
+    }
+  }
+  std::vector<glm::vec3> before(400 * 400), now(400 * 400);
+  Flicker f;
+  for (int frame = 60; frame <= 60 + frames; ++frame) {
+    const passes::Layer& layer = painter.draw(painter.strokes(frame));
+    std::fill(now.begin(), now.end(), glm::vec3(0.5f));
+    for (int y = 0; y < layer.rect.height_px; ++y) {
+      for (int x = 0; x < layer.rect.width_px; ++x) {
+        const std::uint8_t* s = layer.rgba.data() + (static_cast<std::size_t>(y) * layer.rect.width_px + x) * 4;
+        now[(y + layer.rect.y_px) * 400 + x + layer.rect.x_px] =
+            glm::vec3(s[0], s[1], s[2]) / 255.0f + 0.5f * (1 - s[3] / 255.0f);
+      }
+    }
+    if (frame > 60) {
+      double sum = 0;
+      for (const Way& w : ways) {
+        const int i = static_cast<int>(w.x), j = static_cast<int>(w.y);
+        const float fx = w.x - static_cast<float>(i), fy = w.y - static_cast<float>(j);
+        const glm::vec3* s = now.data() + j * 400 + i;
+        const glm::vec3 there = (s[0] * (1 - fx) + s[1] * fx) * (1 - fy) + (s[400] * (1 - fx) + s[401] * fx) * fy;
+        const glm::vec3 d = there - before[w.from];
+        sum += glm::dot(d, d) / 3;
+      }
+      f.warping += sum / static_cast<double>(ways.size()) / frames;
+      double mean = 0, squares = 0;
+      for (const Way& w : ways) {
+        const glm::vec3 c = now[w.from];
+        const double l = (c.r + c.g + c.b) / 3;
+        mean += l, squares += l * l;
+      }
+      mean /= static_cast<double>(ways.size());
+      f.contrast += std::sqrt(squares / static_cast<double>(ways.size()) - mean * mean) / frames;
+    }
+    std::swap(before, now);
+  }
+  return f;
+}
+
+void flicker(const River& river, const ReferencePicture& reference) {
+  using Colours = PaintingOptions::Colours;
+  struct Kind {
+    const char* name;
+    FlowOptions::Method method;
+    Colours colours;
+    bool mean;
+  };
+  double first = 0;
+  for (const Kind& kind :
+       {Kind{"user's field, point-sampled", FlowOptions::Method::Arrows, Colours::Sampled, false},
+        Kind{"divergence-free, point-sampled", FlowOptions::Method::DivergenceFree, Colours::Sampled, false},
+        Kind{"divergence-free, neighbourhood mean", FlowOptions::Method::DivergenceFree, Colours::Sampled, true},
+        Kind{"divergence-free, mean, causal filter", FlowOptions::Method::DivergenceFree, Colours::Followed, true},
+        Kind{"divergence-free, mean, B-spline keys", FlowOptions::Method::DivergenceFree, Colours::Keys, true}}) {
+    PaintingOptions options;
+    options.flow.method = kind.method;
+    options.colours = kind.colours;
+    options.mean = kind.mean;
+    const Flicker f = flicker(river, reference, options, 60);
+    if (first == 0) first = f.warping;
+    std::printf("%-38s warping error %.3f e-3 (%.3f of the first), contrast %.4f\n", kind.name, 1e3 * f.warping,
+                f.warping / first, f.contrast);
+  }
+}
+
+int run(int argc, char** argv) {
+  const std::vector<std::string> asked(argv + 1, argv + argc);
+  const auto wanted = [&](const char* what) {
+    return asked.empty() || std::find(asked.begin(), asked.end(), what) != asked.end();
+  };
+  const auto context = gl::Context::headless();
+  const River river;
+  const ReferencePicture reference = reference_of(river);
+  if (wanted("times")) times(river, reference);
+  if (wanted("flow")) flow(river);
+  if (wanted("coverage")) coverage(river, reference);
+  if (wanted("flicker")) flicker(river, reference);
+  return 0;
+}
+
+}  // namespace
+}  // namespace rinkaku::bench
+
+int main(int argc, char** argv) { return rinkaku::bench::run(argc, argv); }
