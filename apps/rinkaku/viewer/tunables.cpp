@@ -32,6 +32,11 @@ const std::vector<Tunable>& object_tunables() {
        "method",
        "curvature"},
       {"outline", "taper_px", "taper", Kind::Number, 0, 100, 0},
+      {"fluffy", "scale", "fluff size", Kind::Number, 1.01, 3, 1.1},
+      {"fluffy", "threshold", "fluff threshold", Kind::Number, 0, 1, 0.5},
+      {"fluffy", "angle_deg", "fluff band", Kind::Number, 1, 179, 70},
+      {"fluffy", "hang", "fluff hang", Kind::Number, 0, 2, 0.25},
+      {"fluffy", "exaggeration", "fluff exaggeration", Kind::Number, 0, 20, 0},
   };
   return all;
 }
