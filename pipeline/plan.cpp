@@ -218,7 +218,7 @@ bool Plan::runs(std::string_view name) const {
 
 RegionUse region_use(const ObjectScene& object) {
   if (!object.regions) return RegionUse::None;
-  const bool one_colour = object.colour && !object.toon && !object.outline;
+  const bool one_colour = object.colour && !object.toon && !object.outline && !object.fluffy;
   return object.holdout || one_colour ? RegionUse::Cover : RegionUse::Faces;
 }
 

@@ -151,6 +151,28 @@ TEST(Unused, FluffThatNobodyWantsIsNeitherCompiledNorAllocated) {
   EXPECT_EQ(made_by(folder, lined + "fluffy = true\n").programs, plain.programs + 2);
 }
 
+// Whatever draws the line, the fluff reaches out from the body.
+TEST(FluffyLines, FluffIsSeenWithEveryMethodOfOutlines) {
+  const ShotFolder folder;
+  folder.noise_clip("in.mkv", test::picture("yuv420p", 64, 48, test::bt709_limited), 1);
+  const auto covered = [&](const std::string& look) {
+    folder.render(test::drawn_scene + look,
+                  {.output = "out.mkv", .codec = "ffv1", .overwrite = true, .layers_folder = folder.file("layers")});
+    const Frame layer = folder.frames("layers/cg_%06d.png").at(0);
+    double sum = 0;
+    for (int y = 0; y < 48; ++y) {
+      for (int x = 0; x < 64; ++x) sum += test::sample(layer, 3, x, y);
+    }
+    return sum / 255;
+  };
+  for (const char* method : {"uniform", "curvature", "hull", "depth_normals", "silhouette", "laplacian", "z_lines",
+                             "hidden_lines", "facing", "isophote", "wobble", "strokes"}) {
+    const std::string line = std::string("outline = { width_px = 1, method = \"") + method + "\" }\n";
+    // The cube is 16 px wide, the fluff about three long.
+    EXPECT_GT(covered(line + "fluffy = { length_m = 0.1 }\n"), covered(line) + 20) << method;
+  }
+}
+
 TEST(FluffyErrors, NameTheSceneFilesLine) {
   const ShotFolder folder;
   folder.noise_clip("in.mkv", test::picture("yuv420p", 64, 48, test::bt709_limited), 1);
