@@ -157,7 +157,7 @@ TEST(FluffyLines, FluffIsSeenWithEveryMethodOfOutlines) {
   folder.noise_clip("in.mkv", test::picture("yuv420p", 64, 48, test::bt709_limited), 1);
   const auto covered = [&](const std::string& look) {
     folder.render(test::drawn_scene + look,
-                  {.output = "out.mkv", .codec = "ffv1", .overwrite = true, .layers_folder = folder.file("layers")});
+                  {.output = "out.mkv", .codec = "ffv1", .layers_folder = folder.file("layers"), .overwrite = true});
     const Frame layer = folder.frames("layers/cg_%06d.png").at(0);
     double sum = 0;
     for (int y = 0; y < 48; ++y) {
