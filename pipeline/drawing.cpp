@@ -81,7 +81,9 @@ bool may_move(const mesh::ImportSummary& mesh) {
 void use_regions(const Scene& scene, std::span<std::optional<PreparedObject>> all, const RegionOptions& options) {
   std::vector<PlacedBox> boxes;
   for (const auto& one : all) {
-    boxes.push_back({mesh::bounding_box(one->imported.mesh.positions), one->shape.world_from_object()});
+    mesh::Box box = mesh::bounding_box(one->imported.mesh.positions);
+    if (one->fluff) box = with_fluff(box, *one->fluff, one->shape.world_from_object());
+    boxes.push_back({box, one->shape.world_from_object()});
   }
   for (std::size_t i = 0; i < all.size(); ++i) {
     const ObjectScene& object = scene.objects[i];
@@ -159,17 +161,13 @@ std::vector<passes::StyledObject> style(const Scene& scene, std::vector<std::opt
     passes::StyledObject one;
     one.object = std::make_unique<passes::DrawnObject>(std::move(prepared.shape));
     // The list of passes, in drawing order. A new pass adds its line here.
-    // Edges are drawn from the list's end on.
-    std::unique_ptr<passes::ObjectPass> fluff;
-    if (prepared.fluff) fluff = make_fluffy_pass(*one.object, *prepared.fluff, object, scene.light);
-    if (fluff && !fluff_is_under_line(object)) one.passes.push_back(std::move(fluff));
     if (object.holdout) {
       one.passes.push_back(std::make_unique<passes::HoldoutPass>(*one.object));
     } else {
       one.passes.push_back(std::make_unique<passes::ToonPass>(*one.object, prepared.imported.mesh, prepared.toon));
     }
     if (object.outline) add_outline(one, prepared.imported.mesh, *object.outline, prepared.line_factors);
-    if (fluff) one.passes.push_back(std::move(fluff));
+    if (prepared.fluff) add_fluff(one, *prepared.fluff, object, scene.light);
     styled.push_back(std::move(one));
   }
   return styled;

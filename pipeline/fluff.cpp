@@ -1,6 +1,11 @@
 #include "pipeline/fluff.h"
 
+#include <memory>
 #include <numbers>
+#include <utility>
+
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
 
 #include "mesh/topology.h"
 #include "outline/fluffy/fur_textures.h"
@@ -72,12 +77,17 @@ void thin_line_under_fluff(std::vector<float>& factors, const ObjectScene& objec
   }
 }
 
-bool fluff_is_under_line(const ObjectScene& object) {
-  return object.outline && object.fluffy->line == FluffyScene::Line::Body;
+mesh::Box with_fluff(const mesh::Box& body, const Fluff& fluff, const glm::dmat4& world_from_object) {
+  // The shortest way a unit of the object's takes in the world is no longer than this, whatever the direction.
+  const glm::dmat3 object_from_world = glm::inverse(glm::dmat3(world_from_object));
+  double units_per_m = 0;
+  for (int axis = 0; axis < 3; ++axis) units_per_m += glm::length(object_from_world[axis]);
+  // The tips hang down by up to two lengths.
+  const auto reach = static_cast<float>(3 * fluff.frame.longest_m * units_per_m);
+  return {body.min - reach, body.max + reach};
 }
 
-std::unique_ptr<passes::ObjectPass> make_fluffy_pass(passes::DrawnObject& drawn, const Fluff& fluff,
-                                                     const ObjectScene& object, const LightScene& light) {
+void add_fluff(passes::StyledObject& styled, const Fluff& fluff, const ObjectScene& object, const LightScene& light) {
   const FluffyScene& scene = *object.fluffy;
   fluffy::FluffyOptions options;
   options.cut.method = method_of(scene.cut);
@@ -89,12 +99,18 @@ std::unique_ptr<passes::ObjectPass> make_fluffy_pass(passes::DrawnObject& drawn,
   if (object.outline && scene.line == FluffyScene::Line::Rim) {
     options.rim.emplace();
     options.rim->width_px = static_cast<float>(object.outline->width_px);
+    options.rim->width_m = static_cast<float>(object.outline->width_m.value_or(0));
+    options.rim->least_px = static_cast<float>(object.outline->min_px);
+    options.rim->most_px = static_cast<float>(object.outline->max_px);
     options.rim->colour = colour(object.outline->colour);
   }
   options.bands = object.toon ? object.toon->bands : 0;
   if (object.toon) options.shade_colour = colour(object.toon->shade_colour);
   options.light = glm::vec3(light.direction);
-  return std::make_unique<fluffy::FluffyPass>(drawn, fluff.frame, fluff.image, options);
+  auto pass = std::make_unique<fluffy::FluffyPass>(*styled.object, fluff.frame, fluff.image, options);
+  // Edges are drawn from the list's end on.
+  const bool under_line = object.outline && scene.line == FluffyScene::Line::Body;
+  styled.passes.insert(under_line ? styled.passes.end() : styled.passes.begin(), std::move(pass));
 }
 
 }  // namespace rinkaku::pipeline

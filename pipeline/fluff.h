@@ -1,14 +1,14 @@
 #pragma once
 
-#include <memory>
 #include <vector>
 
 #include <glm/mat4x4.hpp>
 
+#include "mesh/bounds.h"
 #include "mesh/mesh.h"
 #include "outline/fluffy/frame.h"
 #include "outline/fluffy/transmission.h"
-#include "pipeline/passes/pass.h"
+#include "pipeline/passes/layer_renderer.h"
 #include "pipeline/scene/light.h"
 #include "pipeline/scene/object.h"
 
@@ -27,11 +27,11 @@ Fluff prepare_fluff(const ObjectScene& object, const mesh::Mesh& mesh, const glm
 /// point. Precondition: the object has fluff and an outline. `factors` may be empty, which stands for 1 everywhere.
 void thin_line_under_fluff(std::vector<float>& factors, const ObjectScene& object, const mesh::Mesh& mesh);
 
-/// Whether the fluff is drawn before the rest of its object, so that the line is over it.
-bool fluff_is_under_line(const ObjectScene& object);
+/// Adds the pass that draws it, after all of the object's other passes have been added: where the line is to be over
+/// the fluff, the fluff is drawn before them, else after them. Needs a GL context.
+void add_fluff(passes::StyledObject& styled, const Fluff& fluff, const ObjectScene& object, const LightScene& light);
 
-/// The pass that draws it. Needs a GL context.
-std::unique_ptr<passes::ObjectPass> make_fluffy_pass(passes::DrawnObject& drawn, const Fluff& fluff,
-                                                     const ObjectScene& object, const LightScene& light);
+/// A box that holds an object and its fluff, in the object's coordinates as `body` is.
+mesh::Box with_fluff(const mesh::Box& body, const Fluff& fluff, const glm::dmat4& world_from_object);
 
 }  // namespace rinkaku::pipeline

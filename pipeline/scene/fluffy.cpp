@@ -93,6 +93,26 @@ void read_paint(const Table& fluffy, FluffyScene& scene) {
   }
 }
 
+// Whether a method's lines can get thinner from place to place, as they must where the fluff has the line.
+bool can_thin(const OutlineScene& outline) {
+  using M = OutlineScene::Method;
+  return outline.method == M::Uniform || outline.method == M::Curvature || outline.method == M::ZLines ||
+         outline.method == M::HiddenLines;
+}
+
+void read_line(const Table& fluffy, const std::optional<OutlineScene>& outline, FluffyScene& scene) {
+  using Line = FluffyScene::Line;
+  if (fluffy.has("line") && !outline) {
+    throw fluffy.error_at("line", "says where the outline runs, and the object has none", "add 'outline' to it");
+  }
+  scene.line = read_choice<Line>(fluffy, "line", {{"rim", Line::Rim}, {"body", Line::Body}, {"none", Line::None}})
+                   .value_or(scene.line);
+  if (fluffy.has("line") && scene.line != Line::Body && !can_thin(*outline)) {
+    throw fluffy.error_at("line", "must be \"body\": the outline's method draws its line around the body",
+                          "or give that another method, e.g. \"uniform\"");
+  }
+}
+
 }  // namespace
 
 toml::Schema fluffy_schema() {
@@ -102,11 +122,12 @@ toml::Schema fluffy_schema() {
                 "coordinates", "tile_m", "repeat", "angle_deg", "layers", "colour", "hang", "line", "cut"}}};
 }
 
-std::optional<FluffyScene> read_fluffy(const Table& object, bool outlined) {
+std::optional<FluffyScene> read_fluffy(const Table& object, const std::optional<OutlineScene>& outline) {
   const auto fluffy = object.table_unless_flag("fluffy");
   if (!fluffy && (!object.has("fluffy") || !*object.flag("fluffy"))) return std::nullopt;
   FluffyScene scene;
   scene.where = object.where("fluffy") + ": fluffy";
+  if (outline && !can_thin(*outline)) scene.line = FluffyScene::Line::Body;
   if (!fluffy) return scene;
   read_texture(*fluffy, scene);
   read_frame(*fluffy, scene.frame);
@@ -115,12 +136,7 @@ std::optional<FluffyScene> read_fluffy(const Table& object, bool outlined) {
   scene.angle_deg = fluffy->number("angle_deg", {1, 179}).value_or(scene.angle_deg);
   scene.layers = static_cast<int>(fluffy->integer("layers", 1, 64).value_or(scene.layers));
   scene.hang = fluffy->number("hang", {0, 2}).value_or(scene.hang);
-  using Line = FluffyScene::Line;
-  scene.line = read_choice<Line>(*fluffy, "line", {{"rim", Line::Rim}, {"body", Line::Body}, {"none", Line::None}})
-                   .value_or(scene.line);
-  if (fluffy->has("line") && !outlined) {
-    throw fluffy->error_at("line", "says where the outline runs, and the object has none", "add 'outline' to it");
-  }
+  read_line(*fluffy, outline, scene);
   using Cut = FluffyScene::Cut;
   scene.cut = read_choice<Cut>(*fluffy, "cut",
                                {{"exact", Cut::Exact},

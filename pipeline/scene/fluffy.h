@@ -8,6 +8,7 @@
 
 #include "outline/fluffy/fur_kind.h"
 #include "outline/fluffy/growth.h"
+#include "pipeline/scene/outline.h"
 #include "pipeline/toml/table.h"
 
 namespace rinkaku::pipeline {
@@ -25,15 +26,20 @@ struct FluffyScene {
   double angle_deg = 70;  ///< w, the band's full width
   int layers = 16;
   enum class Paint { Body, Texture, Own } paint = Paint::Body;
-  std::array<double, 3> colour{1, 1, 1};                 ///< sRGB; for Paint::Own
-  double hang = 0.25;                                    ///< how far tips hang down, in lengths of the fluff
-  enum class Line { Body, Rim, None } line = Line::Rim;  ///< where the object's outline runs, if it has one
+  std::array<double, 3> colour{1, 1, 1};  ///< sRGB; for Paint::Own
+  double hang = 0.25;                     ///< how far tips hang down, in lengths of the fluff
+  enum class Line {
+    Body,
+    Rim,
+    None
+  } line = Line::Rim;  ///< where the object's outline runs, if it has one; by default Body with methods that can't
+                       ///< leave it out there
   enum class Cut { Exact, Gpu, Regions, Nearest, None } cut = Cut::Exact;
 };
 
 toml::Schema fluffy_schema();
 
-/// Empty if there is none, or for `fluffy = false`. `outlined`: the object has an outline. Throws Error (Input).
-std::optional<FluffyScene> read_fluffy(const toml::Table& object, bool outlined);
+/// Empty if there is none, or for `fluffy = false`. `outline` is the object's. Throws Error (Input).
+std::optional<FluffyScene> read_fluffy(const toml::Table& object, const std::optional<OutlineScene>& outline);
 
 }  // namespace rinkaku::pipeline

@@ -74,7 +74,7 @@ ObjectScene read_object(const Table& object) {
   }
   scene.toon = read_toon(object);
   scene.outline = read_outline(object);
-  scene.fluffy = read_fluffy(object, scene.outline.has_value());
+  scene.fluffy = read_fluffy(object, scene.outline);
   return scene;
 }
 

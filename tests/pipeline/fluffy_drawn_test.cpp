@@ -151,6 +151,25 @@ TEST(Unused, FluffThatNobodyWantsIsNeitherCompiledNorAllocated) {
   EXPECT_EQ(made_by(folder, lined + "fluffy = true\n").programs, plain.programs + 2);
 }
 
+// Whatever draws the line, the fluff reaches out from the body.
+TEST(FluffyDesk, FluffIsSeenWithLinesOfEveryKind) {
+  const ShotFolder folder;
+  const auto covered_px = [&](const std::string& look) {
+    RenderOptions options{.output = "out.mkv", .codec = "ffv1", .layers_folder = folder.file("layers")};
+    options.end_frame = 1;
+    options.overwrite = true;
+    folder.render(desk(look), options);
+    cv::Mat alpha;
+    cv::extractChannel(as_picture(folder.frames("layers/cg_000000.png").at(0)), alpha, 3);
+    return cv::sum(alpha)[0] / 255;
+  };
+  for (const char* method : {"hull", "depth_normals"}) {
+    const std::string line = std::string("outline = { method = \"") + method + "\" }\n";
+    // The mascot's contour is some 500 px long, and about half of the fluff's 6 px beyond the line are covered.
+    EXPECT_GT(covered_px(line + "fluffy = { length_m = 0.01 }\n"), covered_px(line) + 500) << method;
+  }
+}
+
 TEST(FluffyErrors, NameTheSceneFilesLine) {
   const ShotFolder folder;
   folder.noise_clip("in.mkv", test::picture("yuv420p", 64, 48, test::bt709_limited), 1);

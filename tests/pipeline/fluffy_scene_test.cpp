@@ -74,6 +74,13 @@ TEST(FluffyScene, APictureIsLaidOnAsTheMeshHasItAndInItsOwnColours) {
   EXPECT_EQ(read("fluffy = { parts = \"mane\" }").frame.selection.names, std::vector<std::string>{"mane"});
 }
 
+TEST(FluffyScene, LineRunsAroundTheBodyWithMethodsThatDrawItThere) {
+  EXPECT_EQ(read("outline = { method = \"depth_normals\" }\nfluffy = true").line, FluffyScene::Line::Body);
+  EXPECT_EQ(read("outline = { method = \"z_lines\" }\nfluffy = true").line, FluffyScene::Line::Rim);
+  EXPECT_NE(message("outline = { method = \"facing\" }\nfluffy = { line = \"rim\" }").find("must be \"body\""),
+            std::string::npos);
+}
+
 TEST(FluffyScene, BadOnesAreRefusedInOneLine) {
   const std::string in = "DIR/scene.toml:8:";
   EXPECT_EQ(message("fluffy = { lenght_m = 1 }"),

@@ -82,6 +82,16 @@ TEST(Plan, FluffIsDrawnOnlyIfAnObjectHasIt) {
   EXPECT_TRUE(plan_of(scene).runs("fluffy"));
 }
 
+TEST(Plan, FluffyObjectKeepsItsOwnSurfaceAsFluffMeetsItsDepth) {
+  Scene scene = drawn_scene();
+  scene.objects[0].regions.emplace();
+  scene.objects[0].colour = {1, 1, 1};
+  scene.objects[0].toon.reset();
+  EXPECT_EQ(region_use(scene.objects[0]), RegionUse::Cover);
+  scene.objects[0].fluffy.emplace();
+  EXPECT_EQ(region_use(scene.objects[0]), RegionUse::Faces);
+}
+
 TEST(Plan, EachLookRunsOnlyIfAnObjectHasIt) {
   Scene scene = drawn_scene();
   EXPECT_FALSE(plan_of(scene).runs("flat"));

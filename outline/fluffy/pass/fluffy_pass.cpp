@@ -56,6 +56,7 @@ FluffyPass::Painter::Painter(std::span<const std::string_view> defines) {
   viewport_px = program.uniform("viewport_px");
   step_between = program.uniform("step_between");
   fresh = program.uniform("fresh");
+  rim_px = program.uniform("rim_px");
 }
 
 FluffyPass::FluffyPass(passes::DrawnObject& object, const Frame& frame, const TransmissionImage& image,
@@ -81,7 +82,6 @@ FluffyPass::FluffyPass(passes::DrawnObject& object, const Frame& frame, const Tr
   const GLuint name = rim_->program.name();
   const glm::vec4 colour(options.rim->colour, 1);
   glProgramUniform4fv(name, rim_->program.uniform("rim_colour"), 1, glm::value_ptr(colour));
-  glProgramUniform1f(name, rim_->program.uniform("rim_px"), options.rim->width_px);
 }
 
 void FluffyPass::set_up(const Painter& painter) const {
@@ -102,6 +102,14 @@ void FluffyPass::set_up(const Painter& painter) const {
   glProgramUniform1f(name, program.uniform("last_band"), static_cast<float>(std::max(options_.bands - 1, 1)));
 }
 
+float FluffyPass::rim_px(const passes::View& view) const {
+  if (!options_.rim) return 0;
+  if (options_.rim->width_m <= 0) return options_.rim->width_px;
+  const double distance_m = std::max(object_.shape().last_look().distance_m, passes::near_m);
+  const double wished_px = view.camera.fx_px * static_cast<double>(options_.rim->width_m) / distance_m;
+  return std::clamp(static_cast<float>(wished_px), options_.rim->least_px, options_.rim->most_px);
+}
+
 double FluffyPass::reach_px(const passes::View& view) const {
   const passes::Look& look = object_.shape().last_look();
   const double nearest_m = look.nearest_m - longest_m_;
@@ -110,7 +118,7 @@ double FluffyPass::reach_px(const passes::View& view) const {
   // A point of the mesh at the border of the picture moves aside by its growth, and by what coming nearer adds.
   const double off_axis =
       std::hypot(view.camera.width_px / view.camera.fx_px, view.camera.height_px / view.camera.fy_px);
-  const double line_px = options_.rim ? 2.0 * options_.rim->width_px : 0;
+  const double line_px = 2.0 * static_cast<double>(rim_px(view));
   return view.camera.fx_px * longest_m_ / nearest_m * (1 + off_axis) + line_px;
 }
 
@@ -160,6 +168,7 @@ void FluffyPass::draw_edges(const passes::DrawCall& call) {
     glUniform2f(painter->viewport_px, call.viewport_px.x, call.viewport_px.y);
     glUniform1ui(painter->step_between, drawn.step);
     glUniform1f(painter->fresh, drawn.fresh);
+    if (painter->rim_px >= 0) glUniform1f(painter->rim_px, rim_px(call.view));
     if (gpu_cut_) {
       gpu_cut_->draw();
     } else {

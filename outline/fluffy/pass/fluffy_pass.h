@@ -21,7 +21,9 @@ namespace rinkaku::fluffy {
 
 /// A line around the fluff.
 struct RimLine {
-  float width_px = 3;
+  float width_px = 3;                     ///< not read if width_m is given
+  float width_m = 0;                      ///< above 0: as wide as something of this size at the object's middle
+  float least_px = 0, most_px = 40;       ///< between which width_m stays
   glm::vec3 colour{0.07f, 0.05f, 0.09f};  ///< sRGB-encoded
 };
 
@@ -66,9 +68,10 @@ class FluffyPass : public passes::ObjectPass {
   struct Painter {
     explicit Painter(std::span<const std::string_view> defines);
     gl::Program program;
-    GLint clip_from_frame, eye, viewport_px, step_between, fresh;
+    GLint clip_from_frame, eye, viewport_px, step_between, fresh, rim_px;
   };
   void set_up(const Painter& painter) const;
+  float rim_px(const passes::View& view) const;  // 0 without one
 
   // Finds and sorts what is to be drawn for this eye; returns how many indices, if the CPU knows.
   GLsizei find(const glm::dvec3& eye, std::uint32_t step);
