@@ -87,7 +87,8 @@ Imported import(const fs::path& file, const ImportOptions& options) {
 
   const std::vector<std::string> arguments{fs::absolute(file).string(), std::to_string(crease_deg),
                                            std::to_string(static_cast<int>(options.normals)), std::to_string(memory),
-                                           std::to_string(static_cast<long long>(std::ceil(time_s)))};
+                                           std::to_string(static_cast<long long>(std::ceil(time_s))),
+                                           options.rig ? "1" : "0"};
   const fs::path worker = find_worker();
   WorkerResult result = run_worker(worker, arguments, {time_s * kClockToCpu, memory});
   switch (result.end) {

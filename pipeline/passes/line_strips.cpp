@@ -61,6 +61,14 @@ void LineStrips::style(const LineStyle& style) {
   factors_.assign(style.factors.begin(), style.factors.end());
   factors_.resize(hard_.size(), 1.0f);
   largest_factor_ = factors_.empty() ? 1.0f : *std::max_element(factors_.begin(), factors_.end());
+  follow_ = style.follow;
+  if (follow_) largest_factor_ = std::max(largest_factor_, style.most_factor);
+}
+
+void LineStrips::move(std::span<const glm::vec3> points, std::span<const glm::vec3> outline_normals) {
+  if (!follow_) return;
+  const std::span<const float> factors = follow_(points, outline_normals);
+  std::copy(factors.begin(), factors.end(), factors_.begin());
 }
 
 std::uint32_t LineStrips::place_at(std::uint32_t vertex, std::span<const ShapeVertex> vertices,

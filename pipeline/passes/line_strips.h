@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -33,6 +34,10 @@ struct LineVertex {
 struct LineStyle {
   /// What the width is multiplied by at each welded point, above 0; empty for 1.
   std::span<const float> factors{};
+  /// For an object that moves, gives the factors of its new points and outline normals each time; empty: they stay.
+  using Follow = std::function<std::span<const float>(std::span<const glm::vec3>, std::span<const glm::vec3>)>;
+  Follow follow{};
+  float most_factor = 0;  ///< the largest that `follow` may give
   float taper_px = 0;  ///< where a line ends on a surface, it gets thinner over this length, or less if it soon goes
                        ///< on; 0: not at all
 };
@@ -50,6 +55,8 @@ class LineStrips {
   /// Keeps neither mesh nor topology.
   LineStrips(const mesh::Mesh& mesh, const mesh::Topology& topology, bool mirrored);
   void style(const LineStyle& style);
+  /// The object has moved: points and outline normals as the topology has them. Cost: what the style's `follow` takes.
+  void move(std::span<const glm::vec3> points, std::span<const glm::vec3> outline_normals);
 
   /// `to_pixels` takes a position to (x Z, y Z, Z, Z), x and y in pixels of the pinhole picture; `vertices` are the
   /// mesh's. Allocates nothing once warm. About 0.1 microseconds an edge, and as much again for a lens with distortion.
@@ -110,6 +117,7 @@ class LineStrips {
   std::vector<std::uint32_t> place_of_;  // per point, of this frame's; valid where places_ agrees
   float taper_px_ = 0;
   float largest_factor_ = 1;
+  LineStyle::Follow follow_;
   float largest_push_squared_ = 1;
   // This frame's, kept for their memory.
   std::vector<Place> places_;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
@@ -94,8 +95,53 @@ void ObjectShape::collect_vertices(const mesh::Mesh& mesh, const mesh::Topology&
   }
 }
 
+void ObjectShape::animate(const mesh::Mesh& mesh, mesh::Rig rig, const mesh::Playback& playback) {
+  const mesh::Topology topology = mesh::topology(mesh);
+  moving_.emplace(mesh, topology, std::move(rig), playback);
+  welded_ = mesh.welded;
+  faces_ = topology.faces;
+  levels_.emplace(mesh::Mesh{});
+  made_levels_.clear();
+  strips_.emplace(mesh, topology, two_sided_, true);
+  intersections_.emplace(mesh, topology, std::span<const mesh::Cut>{}, world_from_object_);
+  // An outline normal may come to lie along any axis.
+  const glm::dmat3 object_from_world(object_from_world_);
+  double longest = 0;
+  for (int axis = 0; axis < 3; ++axis) longest += glm::dot(object_from_world[axis], object_from_world[axis]);
+  push_m_ = 1 / std::sqrt(longest);
+  follow();
+}
+
+// Brings everything that is kept of the mesh to where it has moved.
+void ObjectShape::follow() {
+  ++moves_made_;
+  const mesh::Skin& skin = moving_->skin();
+  const std::span<const glm::vec3> points = skin.points(), normals = skin.normals();
+  const std::span<const glm::vec3> outline_normals = skin.outline_normals();
+  for (std::size_t p = 0; p < points.size(); ++p) {
+    x_[p] = points[p].x;
+    y_[p] = points[p].y;
+    z_[p] = points[p].z;
+  }
+  centre_ = glm::dvec3(world_from_object_ * glm::dvec4(mesh::bounding_box(points).centre(), 1.0));
+  const glm::mat3 object_from_world(glm::dmat3(object_from_world_) * push_m_);
+  for (std::size_t v = 0; v < vertices_.size(); ++v) {
+    const std::uint32_t p = welded_[v];
+    ShapeVertex& out = vertices_[v];
+    out.position = points[p];
+    out.normal = snorm(normals[v]);
+    const glm::vec3 outwards = world_from_normal_ * outline_normals[p];
+    const float squared = glm::dot(outwards, outwards);
+    out.outline_normal = snorm(object_from_world * outwards * (squared > 0 ? 1.0f / std::sqrt(squared) : 0.0f));
+  }
+  whole_->move(faces_, points);
+  borders_->move(vertices_);
+  if (asked_for_lines_) lines_->move(points, outline_normals);
+}
+
 const Look& ObjectShape::look(const View& view, const PixelRect& picture) {
   look_ = {};
+  if (moving_ && moving_->move_to(view.time_s)) follow();
   const glm::mat4 to_pixels = pixels_from_object(view, world_from_object_);
   find_bounds(to_pixels, picture);
   if (!look_.visible) return look_;
@@ -135,6 +181,7 @@ const Look& ObjectShape::look(const View& view, const PixelRect& picture) {
 void ObjectShape::ask_for_lines(const LineStyle& style) {
   asked_for_lines_ = true;
   lines_->style(style);
+  if (moving_) lines_->move(moving_->skin().points(), moving_->skin().outline_normals());
 }
 
 // Null for the whole mesh.

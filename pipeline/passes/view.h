@@ -8,10 +8,11 @@
 
 namespace rinkaku::passes {
 
-/// What a frame's CG is seen through. Its lens distortion is not applied here but by LensMap.
+/// What a frame's CG is seen through, and when. Its lens distortion is not applied here but by LensMap.
 struct View {
   CameraModel camera;
   RigidTransform camera_from_world;
+  double time_s = 0;  ///< on the video's clock, from its first frame
 };
 
 /// The one place where OpenCV's camera (+z forward, y down, pixel centres at whole numbers) becomes GL's clip space.
