@@ -1,6 +1,10 @@
 #pragma once
 
+#include <cstdint>
+#include <span>
 #include <vector>
+
+#include <glm/vec3.hpp>
 
 #include "mesh/topology.h"
 #include "outline/curvature.h"
@@ -23,5 +27,25 @@ namespace rinkaku::outline {
 /// are 1. Between `least` and 1 + exaggeration. Cost: some 50 ns a point, and as much for each smoothing; allocates.
 std::vector<float> line_width_factors(const mesh::Topology& topology, const Curvature& curvature, double k95,
                                       const WidthOptions& options);
+
+/// The same again and again for a surface that moves: curvature, factors and their smoothing of each pose. K95 stays that
+/// of the rest pose, so that widths don't pump. Keeps no reference; allocates nothing after construction.
+class CurvatureWidths {
+ public:
+  CurvatureWidths(const mesh::Topology& rest, const WidthOptions& options);
+
+  /// `points`: in the topology's order. The span lives until the next call. Cost: a CurvatureSolver::solve(), and for
+  /// 63,684 points about 0.3 ms and 0.5 ms for each smoothing.
+  std::span<const float> at(std::span<const glm::vec3> points);
+
+ private:
+  void smooth();
+
+  WidthOptions options_;
+  CurvatureSolver solver_;
+  double k95_ = 0;
+  std::vector<std::uint32_t> first_neighbour_, neighbours_;  // per point its run, and the end
+  std::vector<float> factors_, smoothed_;
+};
 
 }  // namespace rinkaku::outline
