@@ -6,13 +6,14 @@
 #include <map>
 #include <optional>
 #include <span>
+#include <tuple>
 #include <utility>
 
 #include <glm/vec3.hpp>
 
-#include "outline/curvature.h"
 #include "outline/line_width.h"
 #include "outline/pass/hull_pass.h"
+#include "pipeline/animated.h"
 #include "pipeline/gl/context.h"
 #include "pipeline/in_parallel.h"
 #include "pipeline/passes/holdout/holdout_pass.h"
@@ -36,10 +37,11 @@ passes::ToonOptions toon_options(const ObjectScene& object, const LightScene& li
   return options;
 }
 
-// Per welded point; empty where the width doesn't follow the shape.
-std::vector<float> line_factors(const ObjectScene& object, const mesh::Mesh& mesh) {
-  if (!object.outline || object.outline->method != OutlineScene::Method::Curvature) return {};
-  const OutlineScene& line = *object.outline;
+bool follows_curvature(const ObjectScene& object) {
+  return object.outline && object.outline->method == OutlineScene::Method::Curvature;
+}
+
+outline::WidthOptions width_options(const OutlineScene& line) {
   outline::WidthOptions options;
   options.kind = line.curvature;
   options.sign = line.sign;
@@ -48,13 +50,33 @@ std::vector<float> line_factors(const ObjectScene& object, const mesh::Mesh& mes
   options.curve = static_cast<float>(line.curve);
   options.least = static_cast<float>(line.min_factor);
   options.smoothing = line.smoothing;
-  const mesh::Topology topology = mesh::topology(mesh);
-  const outline::Curvature found = outline::curvature(topology);
-  return outline::line_width_factors(topology, found, outline::k95(found), options);
+  return options;
+}
+
+// What its widths do along the line; the factors' memory is `factors`.
+passes::LineStyle line_style(const ObjectScene& object, const mesh::Mesh& mesh, std::vector<float>& factors) {
+  passes::LineStyle style;
+  if (!object.outline) return style;
+  style.taper_px = static_cast<float>(object.outline->taper_px);
+  if (!follows_curvature(object)) return style;
+  const outline::WidthOptions options = width_options(*object.outline);
+  const auto widths = std::make_shared<outline::CurvatureWidths>(mesh::topology(mesh), options);
+  if (object.animation) {
+    style.follow = [widths](std::span<const glm::vec3> points, std::span<const glm::vec3>) {
+      return widths->at(points);
+    };
+    style.most_factor = 1 + options.exaggeration;
+  } else {
+    const mesh::Topology topology = mesh::topology(mesh);
+    const std::span<const float> found = widths->at(topology.points);
+    factors.assign(found.begin(), found.end());
+    style.factors = factors;
+  }
+  return style;
 }
 
 void add_outline(PassList& list, passes::DrawnObject& drawn, const ObjectScene& object,
-                 std::span<const float> factors) {
+                 const passes::LineStyle& style) {
   if (!object.outline) return;
   const OutlineScene& line = *object.outline;
   outline::HullOptions options;
@@ -63,7 +85,7 @@ void add_outline(PassList& list, passes::DrawnObject& drawn, const ObjectScene& 
   options.least_px = static_cast<float>(line.min_px);
   options.most_px = static_cast<float>(line.max_px);
   options.colour = colour(line.colour);
-  options.style = {factors, static_cast<float>(line.taper_px)};
+  options.style = style;
   list.push_back(std::make_unique<outline::HullPass>(drawn, options));
 }
 
@@ -72,12 +94,14 @@ struct PreparedObject {
   mesh::Imported imported;
   passes::ToonOptions toon;
   passes::ObjectShape shape;
-  std::vector<float> line_factors;
+  std::vector<float> line_factors;  // what `line` refers to
+  passes::LineStyle line;
 };
 
 mesh::Imported import_mesh(const ObjectScene& object) {
   mesh::ImportOptions options;
   options.crease_deg = object.crease_deg;
+  options.rig = object.animation.has_value();
   return mesh::import(object.mesh, options);
 }
 
@@ -97,17 +121,21 @@ PreparedObject prepare(mesh::Imported imported, const ObjectScene& object, const
   const glm::dmat4 place = world_from_object(object, mesh::bounding_box(mesh.positions), imported.summary.up);
   const passes::ToonOptions toon = toon_options(object, light);
   passes::ObjectShape shape(mesh, place, passes::band_borders(mesh, place, toon));
-  std::vector<float> factors = line_factors(object, mesh);
-  return {std::move(imported), toon, std::move(shape), std::move(factors)};
+  if (object.animation) {
+    shape.animate(mesh, imported.rig, playback(*object.animation, imported.rig, object.mesh));
+  }
+  std::vector<float> factors;
+  passes::LineStyle line = line_style(object, mesh, factors);
+  return {std::move(imported), toon, std::move(shape), std::move(factors), std::move(line)};
 }
 
 // Objects of one file share its import, which takes a process.
 std::vector<std::optional<PreparedObject>> prepare_all(const Scene& scene) {
-  std::map<std::pair<std::filesystem::path, double>, std::size_t> known;
+  std::map<std::tuple<std::filesystem::path, double, bool>, std::size_t> known;
   std::vector<const ObjectScene*> distinct;
   std::vector<std::size_t> import_of;
   for (const ObjectScene& object : scene.objects) {
-    const auto [at, added] = known.try_emplace({object.mesh, object.crease_deg}, distinct.size());
+    const auto [at, added] = known.try_emplace({object.mesh, object.crease_deg, object.animation.has_value()}, distinct.size());
     if (added) distinct.push_back(&object);
     import_of.push_back(at->second);
   }
@@ -155,7 +183,7 @@ Drawing make_drawing(const Scene& scene, const passes::PixelRect& picture) {
     } else {
       one.passes.push_back(std::make_unique<passes::ToonPass>(*one.object, prepared.imported.mesh, prepared.toon));
     }
-    add_outline(one.passes, *one.object, object, prepared.line_factors);
+    add_outline(one.passes, *one.object, object, prepared.line);
     styled.push_back(std::move(one));
   }
   drawing.renderer = std::make_unique<passes::LayerRenderer>(std::move(styled), picture);

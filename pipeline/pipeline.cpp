@@ -63,6 +63,10 @@ RenderReport render(const Prepared& prepared, const RenderOptions& options, cons
 
   std::optional<passes::LensMap> lens;
   if (plan.runs("lens")) lens.emplace(*prepared.camera);
+  // On the video's clock, whatever its file's says.
+  const auto time_s = [first_s = described.first_time_s()](const Frame& frame) {
+    return frame.time_s() - first_s;
+  };
   std::optional<Drawing> drawing;
   SpentLayers spent;
   if (plan.runs("draw")) {
@@ -74,7 +78,7 @@ RenderReport render(const Prepared& prepared, const RenderOptions& options, cons
       work.layer.rect = {};
       if (!work.pose || work.pose->opacity <= 0) return;
       ++result.posed_frames;
-      drawing->renderer->draw({*prepared.camera, work.pose->camera_from_world}, work.layer);
+      drawing->renderer->draw({*prepared.camera, work.pose->camera_from_world, time_s(work.frame)}, work.layer);
     });
   }
   passes::Layer distorted;

@@ -150,7 +150,9 @@ class SceneReader {
     while (!open.empty()) {
       const Placed at = open.back();
       open.pop_back();
-      world_by_name_.emplace(at.node->mName.C_Str(), at.world);
+      // Bones are known by name only; of several nodes of one name, they are the one that is no mesh itself.
+      const auto [known, fresh] = world_by_name_.try_emplace(at.node->mName.C_Str(), at);
+      if (!fresh && known->second.node->mNumMeshes > 0 && at.node->mNumMeshes == 0) known->second = at;
       placed_.push_back(at);
       for (unsigned i = at.node->mNumChildren; i-- > 0;) {
         const aiNode* child = at.node->mChildren[i];
@@ -195,7 +197,7 @@ class SceneReader {
       const aiBone& bone = *mesh.mBones[b];
       const auto node = world_by_name_.find(bone.mName.C_Str());
       if (node == world_by_name_.end()) continue;
-      const Matrix joint = node->second * Matrix(bone.mOffsetMatrix);
+      const Matrix joint = node->second.world * Matrix(bone.mOffsetMatrix);
       for (unsigned w = 0; w < bone.mNumWeights; ++w) {
         const aiVertexWeight& weight = bone.mWeights[w];
         if (weight.mVertexId >= mesh.mNumVertices || !(weight.mWeight > 0)) continue;
@@ -314,7 +316,7 @@ class SceneReader {
   TextureReader textures_;
   std::optional<RigReader> rig_;
   std::vector<Placed> placed_;
-  std::unordered_map<std::string, Matrix> world_by_name_;
+  std::unordered_map<std::string, Placed> world_by_name_;
   std::unordered_map<unsigned, std::uint32_t> material_numbers_;
   bool any_uvs_ = false, any_colours_ = false, any_normals_ = false;
   ReadScene result_;

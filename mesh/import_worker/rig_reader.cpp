@@ -63,7 +63,10 @@ void RigReader::add_nodes(const aiNode& root, std::uint32_t no_parent) {
     RigNode added{node->mName.C_Str(), parent, matrix(node->mTransformation)};
     if (!finite(&added.parent_from_node[0][0], 16)) added.parent_from_node = glm::mat4(1);
     number_of_.emplace(node, number);
-    number_by_name_.emplace(added.name, number);
+    // Bones and tracks know nodes by name only; of several they mean the one that is no mesh itself.
+    const auto [known, fresh] = number_by_name_.try_emplace(added.name, number);
+    if (!fresh && holds_mesh_[known->second] && node->mNumMeshes == 0) known->second = number;
+    holds_mesh_.push_back(node->mNumMeshes > 0);
     rig_.nodes.push_back(std::move(added));
     for (unsigned i = node->mNumChildren; i-- > 0;) {
       if (node->mChildren[i] != nullptr) open.emplace_back(node->mChildren[i], number);

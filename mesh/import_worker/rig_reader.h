@@ -41,6 +41,7 @@ class RigReader {
   Rig rig_;
   std::unordered_map<const aiNode*, std::uint32_t> number_of_;
   std::unordered_map<std::string, std::uint32_t> number_by_name_;
+  std::vector<bool> holds_mesh_;  // per node
   std::vector<MorphRun> morph_runs_;
 };
 
