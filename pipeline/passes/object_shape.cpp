@@ -103,7 +103,6 @@ void ObjectShape::animate(const mesh::Mesh& mesh, mesh::Rig rig, const mesh::Pla
   levels_.emplace(mesh::Mesh{});
   made_levels_.clear();
   strips_.emplace(mesh, topology, two_sided_, true);
-  intersections_.emplace(mesh, topology, std::span<const mesh::Cut>{}, world_from_object_);
   // An outline normal may come to lie along any axis.
   const glm::dmat3 object_from_world(object_from_world_);
   double longest = 0;
@@ -136,6 +135,7 @@ void ObjectShape::follow() {
   }
   whole_->move(faces_, points);
   borders_->move(vertices_);
+  intersections_->move(points, outline_normals, vertices_);
   if (asked_for_lines_) lines_->move(points, outline_normals);
 }
 
