@@ -9,14 +9,22 @@
 namespace rinkaku::mesh {
 namespace {
 
-constexpr float kLeastSquared = 1e-30f;
+/// Of any length that float can hold; zero for zero and for what is not finite.
+glm::vec3 unit_of_any(const glm::vec3& v) {
+  const float largest = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
+  return largest > 0 && std::isfinite(largest) ? glm::normalize(v / largest) : glm::vec3(0);
+}
 
 /// Along `v`, else along the others, which are what is known next best.
 glm::vec3 unit(const glm::vec3& v, const glm::vec3& second, const glm::vec3& third) {
+  constexpr float least_squared = 1e-30f, most_squared = 1e30f;
   const float squared = glm::dot(v, v);
-  if (squared > kLeastSquared) return v * (1.0f / std::sqrt(squared));
-  const float second_squared = glm::dot(second, second);
-  return second_squared > kLeastSquared ? second / std::sqrt(second_squared) : third;
+  if (squared > least_squared && squared < most_squared) return v * (1.0f / std::sqrt(squared));
+  for (const glm::vec3& each : {v, second}) {
+    const glm::vec3 found = unit_of_any(each);
+    if (found != glm::vec3(0)) return found;
+  }
+  return third;
 }
 
 /// Per point, the sum of its faces' cross products, so weighted by area; unit, or zero.
