@@ -9,12 +9,6 @@ namespace {
 
 using test::Rigged;
 
-Mesh moved_mesh(const Mesh& mesh, std::span<const glm::vec3> points) {
-  Mesh moved = mesh;
-  for (std::size_t v = 0; v < moved.positions.size(); ++v) moved.positions[v] = points[moved.welded[v]];
-  return moved;
-}
-
 TEST(MovingContour, IsThatOfAMeshThatStandsSo) {
   const Rigged cylinder = test::bending_cylinder(40, 40);
   const Topology rest = topology(cylinder.mesh);
@@ -25,7 +19,7 @@ TEST(MovingContour, IsThatOfAMeshThatStandsSo) {
   for (const double time_s : {0.1, 0.5, 0.95}) {
     movement.move_to(time_s);
     moving.move(rest.faces, movement.skin().points());
-    const Mesh standing = moved_mesh(cylinder.mesh, movement.skin().points());
+    const Mesh standing = test::posed(cylinder.mesh, movement.skin());
     const Topology fresh = topology(standing);
     ContourFinder still(standing, fresh);
     for (int i = 0; i < 50; ++i) {

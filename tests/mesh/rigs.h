@@ -6,6 +6,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "mesh/assemble.h"
+#include "mesh/skin.h"
 #include "mesh/topology.h"
 #include "tests/mesh/shapes.h"
 
@@ -58,7 +59,7 @@ inline float bend_weight(float y) {
 
 /// A closed cylinder about y with round caps' rims left hard: radius 0.3, from 0 to 2, and two bones that meet at 1. Its
 /// clip "bend" turns the upper one about z by 90 degrees within a second, evenly, and "twist" about y by 180.
-inline Rigged bending_cylinder(int around, int along) {
+inline mesh::Soup bending_cylinder_soup(int around, int along) {
   mesh::Soup soup;
   for (int row = 0; row <= along; ++row) {
     for (int k = 0; k < around; ++k) {
@@ -102,7 +103,16 @@ inline Rigged bending_cylinder(int around, int along) {
     return clip;
   };
   rig.animations = {turning("bend", {0, 0, 1}, 90), turning("twist", {0, 1, 0}, 180)};
-  return assembled(one_part(std::move(soup)));
+  return one_part(std::move(soup));
+}
+inline Rigged bending_cylinder(int around, int along) { return assembled(bending_cylinder_soup(around, along)); }
+
+/// A mesh as a skin has posed it, to be taken for one that stands so.
+inline mesh::Mesh posed(const mesh::Mesh& mesh, const mesh::Skin& skin) {
+  mesh::Mesh standing = mesh;
+  for (std::size_t v = 0; v < standing.positions.size(); ++v) standing.positions[v] = skin.points()[mesh.welded[v]];
+  standing.normals.assign(skin.normals().begin(), skin.normals().end());
+  return standing;
 }
 
 }  // namespace rinkaku::test
