@@ -15,12 +15,9 @@ glm::vec3 unit_of_any(const glm::vec3& v) {
   return largest > 0 && std::isfinite(largest) ? glm::normalize(v / largest) : glm::vec3(0);
 }
 
-/// Along `v`, else along the others, which are what is known next best.
-glm::vec3 unit(const glm::vec3& v, const glm::vec3& second, const glm::vec3& third) {
-  constexpr float least_squared = 1e-30f, most_squared = 1e30f;
-  const float squared = glm::dot(v, v);
-  if (squared > least_squared && squared < most_squared) return v * (1.0f / std::sqrt(squared));
-  for (const glm::vec3& each : {v, second}) {
+/// Along the first, else along the others, which are what is known next best.
+glm::vec3 first_direction(const glm::vec3& first, const glm::vec3& second, const glm::vec3& third) {
+  for (const glm::vec3& each : {first, second}) {
     const glm::vec3 found = unit_of_any(each);
     if (found != glm::vec3(0)) return found;
   }
@@ -72,7 +69,7 @@ Skin::Skin(const Mesh& mesh, const Topology& topology, const Rig& rig)
   for (std::size_t p = 0; p < mesh.point_count; ++p) {
     const glm::mat3 linear(blended(rest, p));
     bind_from_rest[p] = glm::transpose(linear) * (glm::determinant(linear) < 0 ? -1.0f : 1.0f);
-    const auto to_bind = [&](glm::vec3& n) { n = unit(bind_from_rest[p] * n, n, n); };
+    const auto to_bind = [&](glm::vec3& n) { n = first_direction(bind_from_rest[p] * n, n, n); };
     to_bind(bind_outline_normals_[p]);
     for (std::uint32_t i = first_vertex_[p]; i < first_vertex_[p + 1]; ++i) to_bind(bind_normals_[vertices_[i]]);
   }
@@ -146,17 +143,32 @@ glm::mat4 Skin::blended(const Pose& pose, std::size_t point) const {
 
 void Skin::pose(const Pose& pose) {
   add_morphs(pose);
+  turns_.resize(pose.joints.size());
+  for (std::size_t j = 0; j < turns_.size(); ++j) turns_[j] = cofactors(glm::mat3(pose.joints[j]));
   for (std::size_t p = 0; p < points_.size(); ++p) {
-    const glm::mat4 object_from_bind = blended(pose, p);
-    const glm::mat3 linear(object_from_bind);
-    points_[p] = linear * morphed_points_[p] + glm::vec3(object_from_bind[3]);
-    const glm::mat3 turn = cofactors(linear);
-    const auto turned = [&](const glm::vec3& n) { return unit(turn * n, linear * n, n); };
-    outline_normals_[p] = turned(morphed_outline_normals_[p]);
-    for (std::uint32_t i = first_vertex_[p]; i < first_vertex_[p + 1]; ++i) {
-      const std::uint32_t v = vertices_[i];
-      normals_[v] = turned(morphed_normals_[v]);
+    const Influence& first = influences_[first_influence_[p]];
+    if (first_influence_[p + 1] - first_influence_[p] == 1) {
+      move_point(p, pose.joints[first.joint], turns_[first.joint]);
+    } else {
+      const glm::mat4 object_from_bind = blended(pose, p);
+      move_point(p, object_from_bind, cofactors(glm::mat3(object_from_bind)));
     }
+  }
+}
+
+void Skin::move_point(std::size_t p, const glm::mat4& object_from_bind, const glm::mat3& turn) {
+  points_[p] = glm::vec3(object_from_bind * glm::vec4(morphed_points_[p], 1));
+  const auto turned = [&](const glm::vec3& n) {
+    constexpr float least_squared = 1e-30f, most_squared = 1e30f;
+    const glm::vec3 along = turn * n;
+    const float squared = glm::dot(along, along);
+    if (squared > least_squared && squared < most_squared) return along * (1.0f / std::sqrt(squared));
+    return first_direction(along, glm::mat3(object_from_bind) * n, n);
+  };
+  outline_normals_[p] = turned(morphed_outline_normals_[p]);
+  for (std::uint32_t i = first_vertex_[p]; i < first_vertex_[p + 1]; ++i) {
+    const std::uint32_t v = vertices_[i];
+    normals_[v] = turned(morphed_normals_[v]);
   }
 }
 

@@ -50,6 +50,7 @@ class Skin {
   };
   void add_shapes(const Topology& topology, const Rig& rig, std::span<const glm::mat3> bind_from_rest);
   void add_morphs(const Pose& pose);
+  void move_point(std::size_t point, const glm::mat4& object_from_bind, const glm::mat3& turn);
   glm::mat4 blended(const Pose& pose, std::size_t point) const;
 
   std::vector<std::uint32_t> first_influence_;
@@ -59,6 +60,7 @@ class Skin {
   std::vector<Shape> shapes_;
   std::vector<glm::vec3> morphed_points_, morphed_normals_, morphed_outline_normals_;
   bool morphed_ = false;
+  std::vector<glm::mat3> turns_;  // per joint, of the pose: its cofactors
   std::vector<glm::vec3> points_, normals_, outline_normals_;
 };
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <numeric>
 
 namespace rinkaku::outline {
 namespace {
@@ -31,11 +32,9 @@ float factor(float bend, const WidthOptions& options) {
   return thins ? std::max(options.least, 1 / thicker) : thicker;
 }
 
-void find_factors(const Curvature& curvature, double k95, const WidthOptions& options, std::vector<float>& factors) {
-  for (std::size_t p = 0; p < factors.size(); ++p) {
-    const double bend = curvature_at(curvature, options.kind, p) / k95;
-    factors[p] = factor(static_cast<float>(std::clamp(bend, -1e30, 1e30)), options);
-  }
+float factor_at(std::size_t p, const Curvature& curvature, double k95, const WidthOptions& options) {
+  const double bend = curvature_at(curvature, options.kind, p) / k95;
+  return factor(static_cast<float>(std::clamp(bend, -1e30, 1e30)), options);
 }
 
 // Each point's value becomes the mean of itself and its neighbours' mean.
@@ -57,7 +56,7 @@ std::vector<float> line_width_factors(const mesh::Topology& topology, const Curv
                                       const WidthOptions& options) {
   std::vector<float> factors(topology.points.size(), 1.0f);
   if (!(k95 > 0)) return factors;
-  find_factors(curvature, k95, options, factors);
+  for (std::size_t p = 0; p < factors.size(); ++p) factors[p] = factor_at(p, curvature, k95, options);
   std::vector<std::uint32_t> neighbours(factors.size(), 0);
   for (const mesh::Edge& edge : topology.edges) {
     ++neighbours[edge.a];
@@ -74,7 +73,11 @@ CurvatureWidths::CurvatureWidths(const mesh::Topology& rest, const WidthOptions&
       k95_(k95(solver_.solve(rest.points))),
       first_neighbour_(rest.points.size() + 1, 0),
       factors_(rest.points.size(), 1.0f),
-      smoothed_(rest.points.size()) {
+      smoothed_(rest.points.size()),
+      all_(rest.points.size()),
+      seen_at_(rest.points.size(), 0) {
+  std::iota(all_.begin(), all_.end(), 0u);
+  rings_.reserve(all_.size());
   for (const mesh::Edge& edge : rest.edges) {
     ++first_neighbour_[edge.a + 1];
     ++first_neighbour_[edge.b + 1];
@@ -90,19 +93,57 @@ CurvatureWidths::CurvatureWidths(const mesh::Topology& rest, const WidthOptions&
 
 std::span<const float> CurvatureWidths::at(std::span<const glm::vec3> points) {
   if (!(k95_ > 0)) return factors_;
-  find_factors(solver_.solve(points), k95_, options_, factors_);
-  for (int i = 0; i < options_.smoothing; ++i) smooth();
+  const Curvature& curvature = solver_.solve(points);
+  for (const std::uint32_t p : all_) factors_[p] = factor_at(p, curvature, k95_, options_);
+  for (int i = 0; i < options_.smoothing; ++i) smooth(all_);
   return factors_;
 }
 
-void CurvatureWidths::smooth() {
-  for (std::size_t p = 0; p < factors_.size(); ++p) {
+void CurvatureWidths::at(std::span<const glm::vec3> points, std::span<const std::uint32_t> wanted,
+                         std::span<float> factors) {
+  if (k95_ > 0) grow(wanted);
+  if (k95_ > 0 && ring_ends_.size() > static_cast<std::size_t>(options_.smoothing)) {
+    const Curvature& curvature = solver_.solve_at(points, rings_);
+    for (const std::uint32_t p : rings_) factors_[p] = factor_at(p, curvature, k95_, options_);
+    for (std::size_t i = ring_ends_.size() - 1; i-- > 0;) smooth(std::span(rings_).first(ring_ends_[i]));
+  } else {
+    at(points);
+  }
+  for (const std::uint32_t p : wanted) factors[p] = factors_[p];
+}
+
+// Stops early where the rings become most of the surface.
+void CurvatureWidths::grow(std::span<const std::uint32_t> wanted) {
+  ++call_;
+  rings_.clear();
+  ring_ends_.clear();
+  const auto add = [&](std::uint32_t p) {
+    if (seen_at_[p] == call_) return;
+    seen_at_[p] = call_;
+    rings_.push_back(p);
+  };
+  for (const std::uint32_t p : wanted) add(p);
+  ring_ends_.push_back(static_cast<std::uint32_t>(rings_.size()));
+  std::size_t done = 0;
+  const std::size_t most = factors_.size() / 3;
+  for (int i = 0; i < options_.smoothing && rings_.size() < most; ++i) {
+    const std::size_t end = rings_.size();
+    for (; done < end; ++done) {
+      const std::uint32_t p = rings_[done];
+      for (std::uint32_t k = first_neighbour_[p]; k < first_neighbour_[p + 1]; ++k) add(neighbours_[k]);
+    }
+    ring_ends_.push_back(static_cast<std::uint32_t>(rings_.size()));
+  }
+}
+
+void CurvatureWidths::smooth(std::span<const std::uint32_t> of) {
+  for (const std::uint32_t p : of) {
     const std::uint32_t first = first_neighbour_[p], end = first_neighbour_[p + 1];
     float sum = 0;
     for (std::uint32_t i = first; i < end; ++i) sum += factors_[neighbours_[i]];
     smoothed_[p] = end > first ? (factors_[p] + sum / static_cast<float>(end - first)) / 2 : factors_[p];
   }
-  factors_.swap(smoothed_);
+  for (const std::uint32_t p : of) factors_[p] = smoothed_[p];
 }
 
 }  // namespace rinkaku::outline

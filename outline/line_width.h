@@ -34,18 +34,28 @@ class CurvatureWidths {
  public:
   CurvatureWidths(const mesh::Topology& rest, const WidthOptions& options);
 
-  /// `points`: in the topology's order. The span lives until the next call. Cost: a CurvatureSolver::solve(), and for
-  /// 63,684 points about 0.3 ms and 0.5 ms for each smoothing.
+  /// The factors at all points, which are in the topology's order. The span lives until the next call. Cost: a
+  /// CurvatureSolver::solve(), and for 63,684 points about 0.3 ms and 0.5 ms for each smoothing.
   std::span<const float> at(std::span<const glm::vec3> points);
 
+  /// Writes the factors at the wanted points only (where a line runs, in some frame) into `factors`, one a point of the
+  /// surface. Only their surroundings are looked at, unless those are most of the surface.
+  void at(std::span<const glm::vec3> points, std::span<const std::uint32_t> wanted, std::span<float> factors);
+
  private:
-  void smooth();
+  void grow(std::span<const std::uint32_t> wanted);
+  void smooth(std::span<const std::uint32_t> of);
 
   WidthOptions options_;
   CurvatureSolver solver_;
   double k95_ = 0;
   std::vector<std::uint32_t> first_neighbour_, neighbours_;  // per point its run, and the end
   std::vector<float> factors_, smoothed_;
+  std::vector<std::uint32_t> all_;
+  // The wanted points, then their neighbours, and so on, as far as smoothing reaches; and where each ring ends.
+  std::vector<std::uint32_t> rings_, ring_ends_;
+  std::vector<std::uint32_t> seen_at_;  // per point: by which call
+  std::uint32_t call_ = 0;
 };
 
 }  // namespace rinkaku::outline

@@ -62,9 +62,7 @@ passes::LineStyle line_style(const ObjectScene& object, const mesh::Mesh& mesh, 
   const outline::WidthOptions options = width_options(*object.outline);
   const auto widths = std::make_shared<outline::CurvatureWidths>(mesh::topology(mesh), options);
   if (object.animation) {
-    style.follow = [widths](std::span<const glm::vec3> points, std::span<const glm::vec3>) {
-      return widths->at(points);
-    };
+    style.follow = [widths](const passes::LineStyle::Moved& now) { widths->at(now.points, now.wanted, now.factors); };
     style.most_factor = 1 + options.exaggeration;
   } else {
     const mesh::Topology topology = mesh::topology(mesh);

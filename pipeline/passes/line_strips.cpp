@@ -65,10 +65,15 @@ void LineStrips::style(const LineStyle& style) {
   if (follow_) largest_factor_ = std::max(largest_factor_, style.most_factor);
 }
 
-void LineStrips::move(std::span<const glm::vec3> points, std::span<const glm::vec3> outline_normals) {
+void LineStrips::find_factors(const ContourStrips& contour, std::span<const glm::vec3> points,
+                              std::span<const glm::vec3> outline_normals) {
   if (!follow_) return;
-  const std::span<const float> factors = follow_(points, outline_normals);
-  std::copy(factors.begin(), factors.end(), factors_.begin());
+  wanted_.clear();
+  for (const ContourStrips::Piece& piece : contour.pieces()) {
+    wanted_.push_back(welded_[piece.from]);
+    wanted_.push_back(welded_[piece.to]);
+  }
+  follow_({points, outline_normals, wanted_, factors_});
 }
 
 std::uint32_t LineStrips::place_at(std::uint32_t vertex, std::span<const ShapeVertex> vertices,

@@ -127,6 +127,7 @@ class ObjectShape {
   std::vector<std::uint32_t> welded_;
   std::vector<glm::uvec3> faces_;
   std::uint64_t moves_made_ = 0;
+  bool evenly_scaled_ = false;
 
   std::vector<Run> front_runs_;
   Look look_;

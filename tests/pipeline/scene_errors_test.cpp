@@ -70,7 +70,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadScene{"InnerHeader", object + "[object.outline]\nwidth = 3\n",
                  "DIR/scene.toml:9:1: unknown key 'width' in outline of [[object]]; did you mean 'width_px'?"},
         BadScene{"NothingNear", object + "regions = \"cow.rgn\"\n",
-                 "DIR/scene.toml:8:1: unknown key 'regions' in [[object]]; known keys are anchor, colour, crease_deg, "
+                 "DIR/scene.toml:8:1: unknown key 'regions' in [[object]]; known keys are anchor, animation, colour, crease_deg, "
                  "height_m, holdout, mesh, name, outline, position_m, rotation_deg, scale, toon and up"},
         BadScene{"TableOfALaterVersion", object + "[water]\n",
                  "DIR/scene.toml:8:2: unknown key 'water'; known keys are light, object, output, plate and track"},
@@ -264,6 +264,15 @@ INSTANTIATE_TEST_SUITE_P(
         BadScene{
             "ShadeNegative", object + "toon = { shade_colour = [0, 0, -0.1] }\n",
             "DIR/scene.toml:8:32: 'shade_colour' in toon of [[object]] must be three numbers from 0 to 1, found -0.1"},
+        BadScene{"ClipFlag", object + "animation = { clip = true }\n",
+                 "DIR/scene.toml:8:22: 'clip' in animation of [[object]] must be a clip's name or its number, counted "
+                 "from 0, found true"},
+        BadScene{"ClipBelowZero", object + "animation = { clip = -1 }\n",
+                 "DIR/scene.toml:8:22: 'clip' in animation of [[object]] must be a whole number from 0 to 1000000, "
+                 "found -1"},
+        BadScene{"AnimationText", object + "animation = \"Walk\"\n",
+                 "DIR/scene.toml:8:13: 'animation' in [[object]] must be true, false or a table { ... }, found the "
+                 "text \"Walk\""},
         BadScene{"OutlineText", object + "outline = \"yes\"\n",
                  "DIR/scene.toml:8:11: 'outline' in [[object]] must be true, false or a table { ... }, found the text "
                  "\"yes\""},
