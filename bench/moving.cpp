@@ -2,8 +2,9 @@
 // tables 4.2 to 4.4 of Matsuo's thesis row by row, at its 1024x768. Prints milliseconds a frame of drawing (everything
 // but decoding and compositing) and, as the thesis's are frames per second of another machine, their ratios.
 //
-// An argument leaves out meshes with fewer vertices. The mesh is a closed cylinder that bends, seen in full. The cases' frames are drawn in turn, so that whatever else the
-// machine does hits all of them; times are the processor's, of all threads.
+// An argument leaves out meshes with fewer vertices. The mesh is a closed cylinder that bends, seen in full. The cases'
+// frames are drawn in turn, so that whatever else the machine does hits all of them; times are the processor's, of all
+// threads.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -111,8 +112,8 @@ class Drawn {
     followed_ = std::make_shared<outline::CurvatureWidths>(topology, widths);
     const std::span<const float> factors = followed_->at(points_);
     passes::ToonOptions toon;
-    const glm::dmat4 place = glm::translate(glm::dmat4(1), glm::dvec3(0, -1, 4.4)) *
-                             glm::rotate(glm::dmat4(1), 0.2, glm::dvec3(1, 0, 0));
+    const glm::dmat4 place =
+        glm::translate(glm::dmat4(1), glm::dvec3(0, -1, 4.4)) * glm::rotate(glm::dmat4(1), 0.2, glm::dvec3(1, 0, 0));
     const std::vector<std::uint8_t> uneven = which == Levels
                                                  ? passes::band_borders(rigged.mesh, place, toon)
                                                  : std::vector<std::uint8_t>(rigged.mesh.triangles.size(), 1);
@@ -180,7 +181,8 @@ class Drawn {
 void measure(int around, int along, int frames) {
   const Rigged rigged = bending_cylinder(around, along);
   std::array<std::unique_ptr<Drawn>, cases> all;
-  for (int c = 0; c < cases; ++c) all[static_cast<std::size_t>(c)] = std::make_unique<Drawn>(rigged, static_cast<Case>(c));
+  for (int c = 0; c < cases; ++c)
+    all[static_cast<std::size_t>(c)] = std::make_unique<Drawn>(rigged, static_cast<Case>(c));
   std::array<std::vector<double>, cases> times;
   constexpr int warm_up = 5;
   for (int f = 0; f < frames + warm_up; ++f) {
@@ -209,7 +211,7 @@ int main(int count, char** arguments) {
   for (const char* name : names) std::printf(" %13s", name);
   std::printf(" %12s %12s %15s %13s\n", "once/uniform", "every/once", "skinned/carried", "skinned/every");
   // Close to the thesis's vertex counts: 485, 2419, 4250, 10149, 15859, 22226, 28741, 63576.
-  const int sizes[][3] = {{21, 22, 400},   {49, 48, 300},   {65, 64, 200},  {101, 100, 100},
+  const int sizes[][3] = {{21, 22, 400},   {49, 48, 300},  {65, 64, 200},  {101, 100, 100},
                           {126, 125, 100}, {149, 148, 60}, {170, 168, 60}, {252, 252, 40}};
   for (const auto& [around, along, frames] : sizes) {
     if (around * along >= least_points) measure(around, along, frames);

@@ -17,7 +17,7 @@ struct ImportOptions {
   /// purpose (missing ones are computed); computed for OBJ, PLY, OFF and STL, whose normals are mostly per face or
   /// absent.
   enum class Normals { ByFormat, File, Computed } normals = Normals::ByFormat;
-  bool rig = false;  ///< also how it moves; then points that part when it does are not welded
+  bool rig = false;                      ///< also how it moves; then points that part when it does are not welded
   double time_limit_s = 0;               ///< processor time; 0: 5 s and 1 s more for every 10 MB of the file
   std::uint64_t memory_limit_bytes = 0;  ///< 0: 1 GiB and 64 times the file's size
 };
@@ -54,14 +54,14 @@ struct Imported {
 
 /// Reads a mesh file (glTF, GLB, VRM, OBJ, PLY, OFF, STL, FBX and what else Assimp reads) into one mesh.
 ///
-/// Node transforms are applied (units and axes as in the file), skinned meshes are in the pose their nodes have, polygons are
-/// triangulated, vertices at exactly one position are one point, equal vertices are merged, triangles are grouped by
-/// part and ordered for the vertex cache.
-/// Throws Error (Input), one line naming the file and the remedy: missing, empty, unreadable or unknown file, nothing
-/// to draw in it, or one that crashes its reader or exceeds the limits. Error (Runtime) if the reader itself is not
-/// found. The file is read in a child process, `rinkaku-import`, found beside the running program (where installing
-/// puts it), in ../libexec/rinkaku (where a package may put it) or where it was built; the environment's RINKAKU_IMPORT
-/// overrides that. Any thread; several at once are fine. Cost: about 10 ms and 2 microseconds a triangle.
+/// Node transforms are applied (units and axes as in the file), skinned meshes are in the pose their nodes have,
+/// polygons are triangulated, vertices at exactly one position are one point, equal vertices are merged, triangles are
+/// grouped by part and ordered for the vertex cache. Throws Error (Input), one line naming the file and the remedy:
+/// missing, empty, unreadable or unknown file, nothing to draw in it, or one that crashes its reader or exceeds the
+/// limits. Error (Runtime) if the reader itself is not found. The file is read in a child process, `rinkaku-import`,
+/// found beside the running program (where installing puts it), in ../libexec/rinkaku (where a package may put it) or
+/// where it was built; the environment's RINKAKU_IMPORT overrides that. Any thread; several at once are fine. Cost:
+/// about 10 ms and 2 microseconds a triangle.
 Imported import(const std::filesystem::path& file, const ImportOptions& options = {});
 
 }  // namespace rinkaku::mesh

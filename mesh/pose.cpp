@@ -87,8 +87,8 @@ const Pose& Poser::at(const Animation& animation, double time_s) {
 void Poser::compose() {
   for (std::size_t n = 0; n < parent_from_node_.size(); ++n) {
     const std::uint32_t parent = rig_.nodes[n].parent;
-    object_from_node_[n] = parent == RigNode::kNoParent ? parent_from_node_[n]
-                                                        : object_from_node_[parent] * parent_from_node_[n];
+    object_from_node_[n] =
+        parent == RigNode::kNoParent ? parent_from_node_[n] : object_from_node_[parent] * parent_from_node_[n];
   }
   for (std::size_t j = 0; j < pose_.joints.size(); ++j) {
     const Joint& joint = rig_.joints[j];

@@ -18,9 +18,9 @@ struct Pose {
 /// How an animation runs with the clock of a video.
 struct Playback {
   std::uint32_t animation = 0;
-  bool loop = true;     ///< else it stays in its first pose before it starts, and in its last after it ended
-  double start_s = 0;   ///< on the video's clock: when the animation is at its beginning
-  double speed = 1;     ///< negative: backwards, from the end
+  bool loop = true;    ///< else it stays in its first pose before it starts, and in its last after it ended
+  double start_s = 0;  ///< on the video's clock: when the animation is at its beginning
+  double speed = 1;    ///< negative: backwards, from the end
 };
 
 /// Where the animation is at a time of the video: from 0 to its duration.

@@ -68,7 +68,8 @@ struct Animation {
   std::vector<MorphTrack> morph_tracks;
 };
 
-/// How a mesh moves: a hierarchy of nodes, which of them carry each point, blend shapes, and animations. A point goes to
+/// How a mesh moves: a hierarchy of nodes, which of them carry each point, blend shapes, and animations. A point goes
+/// to
 ///   sum over its influences of weight * object_from_node * node_from_bind * (bind point + sum of morph offsets),
 /// for any number of influences. In the rest pose that is where Mesh::positions has it.
 ///
@@ -76,7 +77,7 @@ struct Animation {
 struct Rig {
   std::vector<RigNode> nodes;
   std::vector<Joint> joints;
-  std::vector<glm::vec3> bind_points;         ///< per point
+  std::vector<glm::vec3> bind_points;          ///< per point
   std::vector<std::uint32_t> first_influence;  ///< per point where its run in `influences` starts, and the end
   std::vector<Influence> influences;
   std::vector<Morph> morphs;

@@ -17,8 +17,8 @@ namespace rinkaku::mesh {
 /// Bends a mesh: linear blend skinning of any number of influences a point, after blend shapes.
 ///
 /// Normals (for shading, and the points' outline normals) go with the blended matrix's cofactors, so that they stay at
-/// right angles under uneven scales, and are never NaN: where a point's surroundings are squeezed to nothing (a scale of
-/// 0, a twist by 180 degrees), they keep the direction that the matrix gives them, or the one at rest. What a blend
+/// right angles under uneven scales, and are never NaN: where a point's surroundings are squeezed to nothing (a scale
+/// of 0, a twist by 180 degrees), they keep the direction that the matrix gives them, or the one at rest. What a blend
 /// shape does to normals is measured on the mesh: the change of the mean of the faces' normals there.
 /// Posed as at rest it gives the mesh back, up to rounding.
 ///
@@ -45,8 +45,8 @@ class Skin {
   struct Shape {
     std::vector<std::uint32_t> points;
     std::vector<glm::vec3> offsets;
-    std::vector<std::uint32_t> bent;   // points whose normal changes
-    std::vector<glm::vec3> bends;      // in bind coordinates
+    std::vector<std::uint32_t> bent;  // points whose normal changes
+    std::vector<glm::vec3> bends;     // in bind coordinates
   };
   void add_shapes(const Topology& topology, const Rig& rig, std::span<const glm::mat3> bind_from_rest);
   void add_morphs(const Pose& pose);
@@ -64,7 +64,8 @@ class Skin {
   std::vector<glm::vec3> points_, normals_, outline_normals_;
 };
 
-/// The matrix that normals go with under a linear map: its cofactors, which unlike the inverse's transpose always exist.
+/// The matrix that normals go with under a linear map: its cofactors, which unlike the inverse's transpose always
+/// exist.
 glm::mat3 cofactors(const glm::mat3& m);
 
 }  // namespace rinkaku::mesh

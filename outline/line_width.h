@@ -28,8 +28,8 @@ namespace rinkaku::outline {
 std::vector<float> line_width_factors(const mesh::Topology& topology, const Curvature& curvature, double k95,
                                       const WidthOptions& options);
 
-/// The same again and again for a surface that moves: curvature, factors and their smoothing of each pose. K95 stays that
-/// of the rest pose, so that widths don't pump. Keeps no reference; allocates nothing after construction.
+/// The same again and again for a surface that moves: curvature, factors and their smoothing of each pose. K95 stays
+/// that of the rest pose, so that widths don't pump. Keeps no reference; allocates nothing after construction.
 class CurvatureWidths {
  public:
   CurvatureWidths(const mesh::Topology& rest, const WidthOptions& options);

@@ -23,7 +23,8 @@ std::string known_clips(const mesh::Rig& rig) {
 mesh::Playback playback(const AnimationScene& scene, const mesh::Rig& rig, const std::filesystem::path& mesh) {
   const std::string file = mesh.filename().string();
   if (rig.animations.empty()) {
-    throw input_error(scene.where, file + " has no animation", "leave 'animation' out, or export the mesh with its clips");
+    throw input_error(scene.where, file + " has no animation",
+                      "leave 'animation' out, or export the mesh with its clips");
   }
   mesh::Playback playback{0, scene.loop, scene.start_s, scene.speed};
   auto found = rig.animations.begin();

@@ -133,7 +133,8 @@ std::vector<std::optional<PreparedObject>> prepare_all(const Scene& scene) {
   std::vector<const ObjectScene*> distinct;
   std::vector<std::size_t> import_of;
   for (const ObjectScene& object : scene.objects) {
-    const auto [at, added] = known.try_emplace({object.mesh, object.crease_deg, object.animation.has_value()}, distinct.size());
+    const auto [at, added] =
+        known.try_emplace({object.mesh, object.crease_deg, object.animation.has_value()}, distinct.size());
     if (added) distinct.push_back(&object);
     import_of.push_back(at->second);
   }

@@ -64,9 +64,7 @@ RenderReport render(const Prepared& prepared, const RenderOptions& options, cons
   std::optional<passes::LensMap> lens;
   if (plan.runs("lens")) lens.emplace(*prepared.camera);
   // On the video's clock, whatever its file's says.
-  const auto time_s = [first_s = described.first_time_s()](const Frame& frame) {
-    return frame.time_s() - first_s;
-  };
+  const auto time_s = [first_s = described.first_time_s()](const Frame& frame) { return frame.time_s() - first_s; };
   std::optional<Drawing> drawing;
   SpentLayers spent;
   if (plan.runs("draw")) {

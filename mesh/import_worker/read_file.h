@@ -19,7 +19,8 @@ struct ReadScene {
   ImportSummary summary;
 };
 
-/// Reads a mesh file into triangles. `normals` says whether the file's normals go into the soup, `rig` whether how it moves does. Throws ImportFailure.
+/// Reads a mesh file into triangles. `normals` says whether the file's normals go into the soup, `rig` whether how it
+/// moves does. Throws ImportFailure.
 ReadScene read_file(const std::filesystem::path& file, ImportOptions::Normals normals, bool rig);
 
 /// The readers behind it. PLY and OFF are read here, not by Assimp, which takes blanks between lines for data in a

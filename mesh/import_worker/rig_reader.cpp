@@ -101,7 +101,8 @@ void RigReader::add_influences(const aiMesh& mesh, std::uint32_t node) {
     const std::uint32_t of_bone = joint(known->second, bone.mOffsetMatrix);
     for (unsigned w = 0; w < bone.mNumWeights; ++w) {
       const aiVertexWeight& weight = bone.mWeights[w];
-      if (weight.mVertexId >= mesh.mNumVertices || !(weight.mWeight > least) || !std::isfinite(weight.mWeight)) continue;
+      if (weight.mVertexId >= mesh.mNumVertices || !(weight.mWeight > least) || !std::isfinite(weight.mWeight))
+        continue;
       of_vertex[weight.mVertexId].push_back({of_bone, weight.mWeight});
     }
   }
@@ -119,8 +120,8 @@ void RigReader::add_influences(const aiMesh& mesh, std::uint32_t node) {
 
 void RigReader::add_morphs(const aiMesh& mesh, const aiNode& node, std::uint32_t first_vertex) {
   if (mesh.mNumAnimMeshes == 0) return;
-  morph_runs_.push_back({node.mName.C_Str(), mesh.mName.C_Str(), static_cast<std::uint32_t>(rig_.morphs.size()),
-                         mesh.mNumAnimMeshes});
+  morph_runs_.push_back(
+      {node.mName.C_Str(), mesh.mName.C_Str(), static_cast<std::uint32_t>(rig_.morphs.size()), mesh.mNumAnimMeshes});
   for (unsigned m = 0; m < mesh.mNumAnimMeshes; ++m) {
     const aiAnimMesh& target = *mesh.mAnimMeshes[m];
     Morph morph{target.mName.C_Str(), std::isfinite(target.mWeight) ? target.mWeight : 0.0f, {}, {}};

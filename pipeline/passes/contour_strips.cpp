@@ -66,10 +66,9 @@ void ContourStrips::collect_pieces(const mesh::Contour& contour, std::span<const
   hidden_pieces_.clear();
   for (std::uint32_t edge : contour.edges) {
     const EdgeVertices& e = edges_[edge];
-    const bool hidden =
-        e.always_hidden ||
-        (e.opposite0 != mesh::kNone && is_hollow(vertices[e.a0].position, vertices[e.b0].position,
-                                                 vertices[e.opposite0].position, vertices[e.opposite1].position));
+    const bool hidden = e.always_hidden || (e.opposite0 != mesh::kNone &&
+                                            is_hollow(vertices[e.a0].position, vertices[e.b0].position,
+                                                      vertices[e.opposite0].position, vertices[e.opposite1].position));
     if (hidden) {
       hidden_pieces_.push_back({e.part0, e.a0, e.b0, false});
       continue;

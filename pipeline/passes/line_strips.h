@@ -43,8 +43,8 @@ struct LineStyle {
   using Follow = std::function<void(const Moved&)>;
   Follow follow{};
   float most_factor = 0;  ///< the largest that `follow` may give
-  float taper_px = 0;  ///< where a line ends on a surface, it gets thinner over this length, or less if it soon goes
-                       ///< on; 0: not at all
+  float taper_px = 0;     ///< where a line ends on a surface, it gets thinner over this length, or less if it soon goes
+                          ///< on; 0: not at all
 };
 
 /// Turns a contour into lines of right width: along each edge a quad, and at corners what closes them. No GL.

@@ -6,9 +6,7 @@
 
 namespace rinkaku::pipeline {
 
-toml::Schema animation_schema() {
-  return {{.path = "object.animation", .keys = {"clip", "loop", "start_s", "speed"}}};
-}
+toml::Schema animation_schema() { return {{.path = "object.animation", .keys = {"clip", "loop", "start_s", "speed"}}}; }
 
 std::optional<AnimationScene> read_animation(const toml::Table& object) {
   if (!object.has("animation")) return std::nullopt;

@@ -29,7 +29,7 @@ struct ObjectScene {
   double crease_deg = 60;                       ///< edges sharper than this are shaded hard
   std::optional<std::array<double, 3>> colour;  ///< sRGB; replaces the materials' base colours
   std::optional<AnimationScene> animation;
-  std::optional<ToonScene> toon;                ///< empty: flat colour, unlit
+  std::optional<ToonScene> toon;  ///< empty: flat colour, unlit
   std::optional<OutlineScene> outline;
   /// The model of a filmed thing: not drawn, but CG behind it is hidden.
   bool holdout = false;

@@ -181,8 +181,8 @@ TEST_P(RealRigs, MoveAsTheSpecificationSays) {
   const Topology rest = topology(imported.mesh);
   double size = 0;
   for (const glm::vec3& p : rest.points) size = std::max<double>(size, glm::length(p));
-  // The matrices differ by float rounding over a chain of some ten bones; keys that Assimp keeps in milliseconds lie off
-  // by up to half of one, in which nothing of these clips moves farther than a thousandth of the size.
+  // The matrices differ by float rounding over a chain of some ten bones; keys that Assimp keeps in milliseconds lie
+  // off by up to half of one, in which nothing of these clips moves farther than a thousandth of the size.
   const double near = 2e-3 * size;
   const std::vector<glm::vec3> plain_rest = plain.vertices(-1, 0);
   std::vector<std::vector<std::size_t>> candidates(rest.points.size());

@@ -57,8 +57,8 @@ inline float bend_weight(float y) {
   return t * t * (3 - 2 * t);
 }
 
-/// A closed cylinder about y with round caps' rims left hard: radius 0.3, from 0 to 2, and two bones that meet at 1. Its
-/// clip "bend" turns the upper one about z by 90 degrees within a second, evenly, and "twist" about y by 180.
+/// A closed cylinder about y with round caps' rims left hard: radius 0.3, from 0 to 2, and two bones that meet at 1.
+/// Its clip "bend" turns the upper one about z by 90 degrees within a second, evenly, and "twist" about y by 180.
 inline mesh::Soup bending_cylinder_soup(int around, int along) {
   mesh::Soup soup;
   for (int row = 0; row <= along; ++row) {

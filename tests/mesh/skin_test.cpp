@@ -63,8 +63,8 @@ TEST(Skin, NormalsStayAtRightAnglesUnderUnevenScale) {
   pose_as(skin, ball.rig, test::still(0, {5, 0, 0}, glm::quat(1, 0, 0, 0), scale));
   for (std::size_t p = 0; p < skin.points().size(); ++p) {
     const glm::vec3 on_ball = (skin.points()[p] - glm::vec3(5, 0, 0)) / scale;
-    // The ellipsoid's gradient. The ball's own outline normals miss the radius by a triangle's share (1/16 of its angle,
-    // here 0.02), and the scale stretches that up to four times.
+    // The ellipsoid's gradient. The ball's own outline normals miss the radius by a triangle's share (1/16 of its
+    // angle, here 0.02), and the scale stretches that up to four times.
     EXPECT_GT(glm::dot(skin.outline_normals()[p], glm::normalize(on_ball / scale)), std::cos(0.08));
   }
 }

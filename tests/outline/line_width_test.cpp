@@ -127,8 +127,8 @@ TEST(CurvatureWidths, AreThoseOfTheSurfaceAsItIs) {
   const mesh::Topology rest = mesh::topology(Torus{}.mesh(60, 40)), dented = mesh::topology(dented_torus());
   WidthOptions options;
   options.sign = CurvatureSign::Convex;
-  const std::vector<float> once = line_width_factors(
-      dented, outline::curvature(dented), outline::k95(outline::curvature(rest)), options);
+  const std::vector<float> once =
+      line_width_factors(dented, outline::curvature(dented), outline::k95(outline::curvature(rest)), options);
   outline::CurvatureWidths widths(rest, options);
   const std::span<const float> found = widths.at(dented.points);
   // Sums in another order.

@@ -19,8 +19,8 @@ void write_slide(const test::ShotFolder& folder) {
   for (int i = 0; i < 8; ++i) {
     for (int axis = 0; axis < 3; ++axis) put((i >> axis & 1) != 0 ? 0.2f : -0.2f);
   }
-  for (const int i : {0, 2, 3, 0, 3, 1, 4, 5, 7, 4, 7, 6, 0, 1, 5, 0, 5, 4,
-                      2, 6, 7, 2, 7, 3, 0, 4, 6, 0, 6, 2, 1, 3, 7, 1, 7, 5}) {
+  for (const int i :
+       {0, 2, 3, 0, 3, 1, 4, 5, 7, 4, 7, 6, 0, 1, 5, 0, 5, 4, 2, 6, 7, 2, 7, 3, 0, 4, 6, 0, 6, 2, 1, 3, 7, 1, 7, 5}) {
     put(static_cast<std::uint16_t>(i));
   }
   for (const float f : {0.0f, 1.0f, -0.5f, 0.0f, 0.0f, 0.5f, 0.0f, 0.0f}) put(f);

@@ -70,7 +70,8 @@ INSTANTIATE_TEST_SUITE_P(
         BadScene{"InnerHeader", object + "[object.outline]\nwidth = 3\n",
                  "DIR/scene.toml:9:1: unknown key 'width' in outline of [[object]]; did you mean 'width_px'?"},
         BadScene{"NothingNear", object + "regions = \"cow.rgn\"\n",
-                 "DIR/scene.toml:8:1: unknown key 'regions' in [[object]]; known keys are anchor, animation, colour, crease_deg, "
+                 "DIR/scene.toml:8:1: unknown key 'regions' in [[object]]; known keys are anchor, animation, colour, "
+                 "crease_deg, "
                  "height_m, holdout, mesh, name, outline, position_m, rotation_deg, scale, toon and up"},
         BadScene{"TableOfALaterVersion", object + "[water]\n",
                  "DIR/scene.toml:8:2: unknown key 'water'; known keys are light, object, output, plate and track"},

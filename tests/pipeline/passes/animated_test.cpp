@@ -1,7 +1,6 @@
 // Objects that move must look like objects that stand so.
-#include <gtest/gtest.h>
-
 #include <glm/gtc/matrix_transform.hpp>
+#include <gtest/gtest.h>
 
 #include "mesh/moving_mesh.h"
 #include "outline/pass/hull_pass.h"
