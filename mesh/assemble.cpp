@@ -9,6 +9,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "mesh/bind_rig.h"
 #include "mesh/crease_normals.h"
 
 namespace rinkaku::mesh {
@@ -115,9 +116,9 @@ void order_triangles(const std::vector<Part>& parts, std::size_t vertex_count, s
   }
 }
 
-/// Unpacks the vertices, with points numbered anew in order of first use.
-void store_vertices(const Soup& soup, const std::vector<Vertex>& vertices,
-                    const std::vector<glm::vec3>& point_positions, Mesh& mesh) {
+/// Unpacks the vertices, with points numbered anew in order of first use. Returns the old number of each.
+std::vector<std::uint32_t> store_vertices(const Soup& soup, const std::vector<Vertex>& vertices,
+                                          const std::vector<glm::vec3>& point_positions, Mesh& mesh) {
   const std::size_t count = vertices.size();
   mesh.positions.resize(count);
   mesh.normals.resize(count);
@@ -125,15 +126,20 @@ void store_vertices(const Soup& soup, const std::vector<Vertex>& vertices,
   if (!soup.uvs.empty()) mesh.uvs.resize(count);
   if (!soup.colours.empty()) mesh.colours.resize(count);
   std::vector<std::uint32_t> renumbered(point_positions.size(), ~0u);
+  std::vector<std::uint32_t> old_number;
   for (std::size_t v = 0; v < count; ++v) {
     std::uint32_t& point = renumbered[vertices[v].point];
-    if (point == ~0u) point = mesh.point_count++;
+    if (point == ~0u) {
+      point = mesh.point_count++;
+      old_number.push_back(vertices[v].point);
+    }
     mesh.welded[v] = point;
     mesh.positions[v] = point_positions[vertices[v].point];
     mesh.normals[v] = vertices[v].normal;
     if (!soup.uvs.empty()) mesh.uvs[v] = vertices[v].uv;
     if (!soup.colours.empty()) mesh.colours[v] = vertices[v].colour;
   }
+  return old_number;
 }
 
 }  // namespace
@@ -144,9 +150,14 @@ Assembled assemble(Soup soup, double crease_deg) {
   drop_broken(soup, result.dropped);
 
   std::size_t point_count = 0;
-  const auto point = weld(soup.positions, point_count);
+  auto point = weld(soup.positions, point_count);
+  if (!soup.rig.empty()) split_by_movement(soup.rig, point, point_count);
   std::vector<glm::vec3> point_positions(point_count);
-  for (std::size_t v = 0; v < point.size(); ++v) point_positions[point[v]] = soup.positions[v];
+  std::vector<std::uint32_t> vertex_of(point_count);  // any one
+  for (std::uint32_t v = 0; v < point.size(); ++v) {
+    point_positions[point[v]] = soup.positions[v];
+    vertex_of[point[v]] = v;
+  }
 
   filter_triangles(soup.triangles, soup.parts, [&](const glm::uvec3& t) {
     const bool whole = point[t.x] != point[t.y] && point[t.y] != point[t.z] && point[t.z] != point[t.x];
@@ -181,7 +192,10 @@ Assembled assemble(Soup soup, double crease_deg) {
 
   mesh.triangles.resize(index_count / 3);
   std::memcpy(mesh.triangles.data(), indices.data(), index_count * sizeof(std::uint32_t));
-  store_vertices(soup, vertices, point_positions, mesh);
+  std::vector<std::uint32_t> stand_ins = store_vertices(soup, vertices, point_positions, mesh);
+  if (soup.rig.empty()) return result;
+  for (std::uint32_t& each : stand_ins) each = vertex_of[each];
+  result.rig = rig_of_points(std::move(soup.rig), stand_ins);
   return result;
 }
 

@@ -8,6 +8,7 @@
 #include <glm/vec4.hpp>
 
 #include "mesh/mesh.h"
+#include "mesh/rig.h"
 
 namespace rinkaku::mesh {
 
@@ -21,6 +22,7 @@ struct Soup {
   std::vector<Part> parts;  ///< cover all triangles, in order
   std::vector<Material> materials;
   std::vector<Texture> textures;
+  Rig rig;  ///< per vertex; empty for what doesn't move
 };
 
 /// How many triangles were left out, and why.
@@ -33,12 +35,14 @@ struct Dropped {
 
 struct Assembled {
   Mesh mesh;
+  Rig rig;
   Dropped dropped;
 };
 
 /// Makes a drawable mesh of a soup: broken triangles dropped, vertices at exactly one position (with -0 = 0) welded
 /// into points, missing normals computed with the crease angle, equal vertices merged, triangles ordered for the vertex
-/// cache within their part, vertices and points in order of first use. Parts left empty go.
+/// cache within their part, vertices and points in order of first use. Parts left empty go. Vertices that move
+/// differently are not welded.
 /// The mesh has no triangles if nothing was left.
 Assembled assemble(Soup soup, double crease_deg);
 

@@ -49,11 +49,67 @@ ContourFinder::ContourFinder(const Mesh& mesh, const Topology& topology, const C
   }
   first_non_manifold_ = two_faced + topology.boundary_edges;
 
-  for (auto* flags : {&front_, &seen_front_}) flags->resize(count);
+  for (auto* flags : {&front_, &seen_front_, &flat_}) flags->resize(count);
+  flat_faces_.reserve(count);
   // Lists are written without branches, one entry past the last kept one.
   front_indices_.resize(count * 3 + 3);
   contour_.resize(topology.edges.size() + 1);
   front_parts_.resize(parts_.size());
+}
+
+void ContourFinder::move(std::span<const glm::uvec3> faces, std::span<const glm::vec3> points) {
+  const Sphere sphere = bounding_sphere(points);
+  origin_ = sphere.centre;
+  radius_ = sphere.radius;
+  move_planes(faces, points);
+  if (!flat_faces_.empty()) borrow_normals(faces, points);
+}
+
+void ContourFinder::move_planes(std::span<const glm::uvec3> faces, std::span<const glm::vec3> points) {
+  constexpr float least_squared = 1e-12f;  // of the longest edge's fourth power: below, directions are rounding
+  const glm::vec3 origin(origin_);
+  flat_faces_.clear();
+  for (std::size_t f = 0; f < faces.size(); ++f) {
+    const glm::vec3 a = points[faces[f].x] - origin;
+    const glm::vec3 u = points[faces[f].y] - origin - a, v = points[faces[f].z] - origin - a;
+    const glm::vec3 w = v - u;
+    const float longest = std::max(std::max(glm::dot(u, u), glm::dot(v, v)), glm::dot(w, w));
+    const glm::vec3 cross = glm::cross(u, v);
+    const float squared = glm::dot(cross, cross);
+    flat_[f] = !(squared > least_squared * longest * longest) ? 1 : 0;
+    if (flat_[f] != 0) {
+      flat_faces_.push_back(static_cast<std::uint32_t>(f));
+      continue;
+    }
+    const float inverse = 1.0f / std::sqrt(squared);
+    nx_[f] = cross.x * inverse;
+    ny_[f] = cross.y * inverse;
+    nz_[f] = cross.z * inverse;
+    offset_[f] = (cross.x * a.x + cross.y * a.y + cross.z * a.z) * inverse;
+  }
+}
+
+// From neighbour to neighbour, some faces far; those further inside a squeezed part keep the normal they had.
+void ContourFinder::borrow_normals(std::span<const glm::uvec3> faces, std::span<const glm::vec3> points) {
+  constexpr int most_steps = 8;
+  for (int step = 0; step < most_steps; ++step) {
+    bool any = false;
+    for (const EdgeFaces& edge : consistent_) {
+      if (flat_[edge.face0] == flat_[edge.face1]) continue;
+      const std::uint32_t to = flat_[edge.face0] != 0 ? edge.face0 : edge.face1;
+      const std::uint32_t from = flat_[edge.face0] != 0 ? edge.face1 : edge.face0;
+      nx_[to] = nx_[from];
+      ny_[to] = ny_[from];
+      nz_[to] = nz_[from];
+      flat_[to] = 0;
+      any = true;
+    }
+    if (!any) break;
+  }
+  const glm::vec3 origin(origin_);
+  for (const std::uint32_t f : flat_faces_) {
+    offset_[f] = glm::dot(glm::vec3(nx_[f], ny_[f], nz_[f]), points[faces[f].x] - origin);
+  }
 }
 
 const Contour& ContourFinder::find(const glm::dvec4& eye, const ContourLists& lists, const KnownFaces* known) {

@@ -85,9 +85,12 @@ Imported import(const fs::path& file, const ImportOptions& options) {
   const std::uint64_t memory = options.memory_limit_bytes > 0 ? options.memory_limit_bytes : 1024 * kMiB + 64 * size;
   const double crease_deg = std::isfinite(options.crease_deg) ? options.crease_deg : 60.0;
 
-  const std::vector<std::string> arguments{fs::absolute(file).string(), std::to_string(crease_deg),
-                                           std::to_string(static_cast<int>(options.normals)), std::to_string(memory),
-                                           std::to_string(static_cast<long long>(std::ceil(time_s)))};
+  const std::vector<std::string> arguments{fs::absolute(file).string(),
+                                           std::to_string(crease_deg),
+                                           std::to_string(static_cast<int>(options.normals)),
+                                           std::to_string(memory),
+                                           std::to_string(static_cast<long long>(std::ceil(time_s))),
+                                           options.rig ? "1" : "0"};
   const fs::path worker = find_worker();
   WorkerResult result = run_worker(worker, arguments, {time_s * kClockToCpu, memory});
   switch (result.end) {

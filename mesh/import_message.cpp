@@ -1,91 +1,21 @@
 #include "mesh/import_message.h"
 
 #include <cmath>
-#include <cstring>
-#include <type_traits>
+
+#include "mesh/message_stream.h"
+#include "mesh/rig_message.h"
 
 namespace rinkaku::mesh {
 namespace {
 
-constexpr std::uint32_t kMagic = 0x314d4b52;  // "RKM1"
+constexpr std::uint32_t kMagic = 0x324d4b52;  // "RKM2"
 enum class Content : std::uint32_t { Mesh = 1, Failure = 2 };
 
-class Writer {
- public:
-  template <typename T>
-  requires std::is_trivially_copyable_v<T>
-  void put(const T& value) { append(&value, sizeof(T)); }
-  void put(const std::string& text) {
-    put(static_cast<std::uint64_t>(text.size()));
-    append(text.data(), text.size());
-  }
-  template <typename T>
-  void put_array(const std::vector<T>& values) {
-    put(static_cast<std::uint64_t>(values.size()));
-    append(values.data(), values.size() * sizeof(T));
-  }
-  std::vector<std::uint8_t> bytes;
-
- private:
-  void append(const void* data, std::size_t size) {
-    if (size == 0) return;
-    const auto* first = static_cast<const std::uint8_t*>(data);
-    bytes.insert(bytes.end(), first, first + size);
-  }
-};
-
-/// Reads what Writer wrote; after the first thing that is not there, `good` is false and zeros follow.
-class Reader {
- public:
-  explicit Reader(std::span<const std::uint8_t> bytes) : rest_(bytes) {}
-
-  template <typename T>
-  requires std::is_trivially_copyable_v<T> T get() {
-    T value{};
-    copy(&value, sizeof(T));
-    return value;
-  }
-  std::string get_text() {
-    std::string text(length(1), '\0');
-    copy(text.data(), text.size());
-    return text;
-  }
-  template <typename T>
-  std::vector<T> get_array() {
-    std::vector<T> values(length(sizeof(T)));
-    copy(values.data(), values.size() * sizeof(T));
-    return values;
-  }
-  /// A number of elements that takes at least `least_bytes` each.
-  std::size_t length(std::size_t least_bytes) {
-    const auto count = get<std::uint64_t>();
-    if (count > rest_.size() / least_bytes) {
-      good_ = false;
-      return 0;
-    }
-    return static_cast<std::size_t>(count);
-  }
-  bool good() const { return good_; }
-  bool at_end() const { return rest_.empty(); }
-
- private:
-  void copy(void* to, std::size_t size) {
-    if (size > rest_.size()) {
-      good_ = false;
-      return;
-    }
-    if (size == 0) return;
-    std::memcpy(to, rest_.data(), size);
-    rest_ = rest_.subspan(size);
-  }
-  std::span<const std::uint8_t> rest_;
-  bool good_ = true;
-};
-
-void put_summary(Writer& out, const ImportSummary& s) {
+void put_summary(MessageWriter& out, const ImportSummary& s) {
   out.put(s.format);
   out.put(s.up);
   out.put(s.skins);
+  out.put_texts(s.skin_names);
   out.put(s.bones);
   out.put(s.morph_targets);
   out.put(static_cast<std::uint64_t>(s.clips.size()));
@@ -97,15 +27,15 @@ void put_summary(Writer& out, const ImportSummary& s) {
                                 s.dropped_collapsed, s.unused_vertices}) {
     out.put(n);
   }
-  out.put(static_cast<std::uint64_t>(s.warnings.size()));
-  for (const std::string& warning : s.warnings) out.put(warning);
+  out.put_texts(s.warnings);
 }
 
-ImportSummary get_summary(Reader& in) {
+ImportSummary get_summary(MessageReader& in) {
   ImportSummary s;
   s.format = in.get_text();
   s.up = in.get<char>();
   s.skins = in.get<std::uint32_t>();
+  s.skin_names = in.get_texts();
   s.bones = in.get<std::uint32_t>();
   s.morph_targets = in.get<std::uint32_t>();
   s.clips.resize(in.length(sizeof(std::uint64_t)));
@@ -117,12 +47,11 @@ ImportSummary get_summary(Reader& in) {
                            &s.dropped_collapsed, &s.unused_vertices}) {
     *n = in.get<std::uint64_t>();
   }
-  s.warnings.resize(in.length(sizeof(std::uint64_t)));
-  for (std::string& warning : s.warnings) warning = in.get_text();
+  s.warnings = in.get_texts();
   return s;
 }
 
-void put_mesh(Writer& out, const Mesh& m) {
+void put_mesh(MessageWriter& out, const Mesh& m) {
   out.put_array(m.positions);
   out.put_array(m.normals);
   out.put_array(m.uvs);
@@ -154,7 +83,7 @@ void put_mesh(Writer& out, const Mesh& m) {
   }
 }
 
-Mesh get_mesh(Reader& in) {
+Mesh get_mesh(MessageReader& in) {
   Mesh m;
   m.positions = in.get_array<glm::vec3>();
   m.normals = in.get_array<glm::vec3>();
@@ -237,16 +166,17 @@ bool sound(const Mesh& m) {
 }  // namespace
 
 std::vector<std::uint8_t> encode(const Imported& imported) {
-  Writer out;
+  MessageWriter out;
   out.put(kMagic);
   out.put(Content::Mesh);
   put_summary(out, imported.summary);
   put_mesh(out, imported.mesh);
+  put_rig(out, imported.rig);
   return std::move(out.bytes);
 }
 
 std::vector<std::uint8_t> encode(const ImportFailure& failure) {
-  Writer out;
+  MessageWriter out;
   out.put(kMagic);
   out.put(Content::Failure);
   out.put(failure.what);
@@ -255,7 +185,7 @@ std::vector<std::uint8_t> encode(const ImportFailure& failure) {
 }
 
 std::optional<ImportMessage> decode(std::span<const std::uint8_t> bytes) {
-  Reader in(bytes);
+  MessageReader in(bytes);
   if (in.get<std::uint32_t>() != kMagic) return {};
   ImportMessage message;
   switch (in.get<Content>()) {
@@ -263,7 +193,9 @@ std::optional<ImportMessage> decode(std::span<const std::uint8_t> bytes) {
       Imported imported;
       imported.summary = get_summary(in);
       imported.mesh = get_mesh(in);
+      imported.rig = get_rig(in);
       if (!in.good() || !in.at_end() || !sound(imported.mesh)) return {};
+      if (!sound(imported.rig, imported.mesh.point_count)) return {};
       message.imported = std::move(imported);
       return message;
     }

@@ -105,13 +105,11 @@ void add(Measures& to, const Scratch& s, std::size_t f) {
   to.flat_area += s.flat_area[f];
 }
 
-void normalise(std::span<glm::vec4> normals) {
+void normalise(glm::vec4& n) {
   constexpr float least_sq = 1e-36f;
-  for (glm::vec4& n : normals) {
-    const float length_sq = n.x * n.x + n.y * n.y + n.z * n.z;
-    const float scale = length_sq > least_sq ? 1.0f / std::sqrt(length_sq) : 0.0f;
-    n = glm::vec4(n.x * scale, n.y * scale, n.z * scale, 0);
-  }
+  const float length_sq = n.x * n.x + n.y * n.y + n.z * n.z;
+  const float scale = length_sq > least_sq ? 1.0f / std::sqrt(length_sq) : 0.0f;
+  n = glm::vec4(n.x * scale, n.y * scale, n.z * scale, 0);
 }
 
 }  // namespace
@@ -119,10 +117,9 @@ void normalise(std::span<glm::vec4> normals) {
 CorrectedCurvature::CorrectedCurvature(const FaceStars& stars)
     : normals_(stars.point_count()), measures_(stars.point_count()) {}
 
-void CorrectedCurvature::run(const FaceStars& stars, std::span<const glm::vec4> points) {
+void CorrectedCurvature::add_normals(std::span<const glm::uvec3> all, std::span<const glm::vec4> points) {
   Scratch s;
-  std::fill(normals_.begin(), normals_.end(), glm::vec4(0));
-  for_blocks(stars.faces, [&](std::span<const glm::uvec3> faces) {
+  for_blocks(all, [&](std::span<const glm::uvec3> faces) {
     s.points.load(faces, points.data());
     weigh_corners(s);
     for (std::size_t f = 0; f < faces.size(); ++f) {
@@ -131,9 +128,11 @@ void CorrectedCurvature::run(const FaceStars& stars, std::span<const glm::vec4> 
       add(normals_[faces[f].z], s.cross, s.weight_k, f);
     }
   });
-  normalise(normals_);
-  std::fill(measures_.begin(), measures_.end(), Measures{});
-  for_blocks(stars.faces, [&](std::span<const glm::uvec3> faces) {
+}
+
+void CorrectedCurvature::add_measures(std::span<const glm::uvec3> all, std::span<const glm::vec4> points) {
+  Scratch s;
+  for_blocks(all, [&](std::span<const glm::uvec3> faces) {
     s.points.load(faces, points.data());
     s.normals.load(faces, normals_.data());
     measure_faces(s);
@@ -141,6 +140,60 @@ void CorrectedCurvature::run(const FaceStars& stars, std::span<const glm::vec4> 
       for (int c = 0; c < 3; ++c) add(measures_[faces[f][c]], s, f);
     }
   });
+}
+
+void CorrectedCurvature::run(const FaceStars& stars, std::span<const glm::vec4> points) {
+  std::fill(normals_.begin(), normals_.end(), glm::vec4(0));
+  add_normals(stars.faces, points);
+  for (glm::vec4& n : normals_) normalise(n);
+  std::fill(measures_.begin(), measures_.end(), Measures{});
+  add_measures(stars.faces, points);
+}
+
+void CorrectedCurvature::run_at(const FaceStars& stars, std::span<const glm::vec3> points, float scale,
+                                std::span<const std::uint32_t> wanted) {
+  seen_face_.resize(stars.faces.size());
+  seen_at_.resize(stars.point_count());
+  scaled_.resize(stars.point_count());
+  // The faces around points, each once, and their corners, each once.
+  const auto collect = [&](std::span<const std::uint32_t> around, std::vector<std::uint32_t>* corners) {
+    ++sweep_;
+    faces_.clear();
+    for (const std::uint32_t p : around) {
+      for (const std::uint32_t corner : stars.at(p)) {
+        const std::uint32_t f = corner / 3;
+        if (seen_face_[f] == sweep_) continue;
+        seen_face_[f] = sweep_;
+        const glm::uvec3& face = stars.faces[f];
+        faces_.push_back(face);
+        for (int c = 0; c < 3; ++c) {
+          scaled_[face[c]] = glm::vec4(points[face[c]] * scale, 0);
+          normals_[face[c]] = glm::vec4(0);
+          measures_[face[c]] = {};
+          if (corners == nullptr || seen_at_[face[c]] == sweep_) continue;
+          seen_at_[face[c]] = sweep_;
+          corners->push_back(face[c]);
+        }
+      }
+    }
+  };
+  ring_.clear();
+  collect(wanted, &ring_);
+  collect(ring_, nullptr);
+  add_normals(faces_, scaled_);
+  for (const std::uint32_t p : ring_) normalise(normals_[p]);
+  // The first ring's faces again, now that there are normals.
+  ++sweep_;
+  faces_.clear();
+  for (const std::uint32_t p : wanted) {
+    for (const std::uint32_t corner : stars.at(p)) {
+      const std::uint32_t f = corner / 3;
+      if (seen_face_[f] == sweep_) continue;
+      seen_face_[f] = sweep_;
+      faces_.push_back(stars.faces[f]);
+    }
+  }
+  add_measures(faces_, scaled_);
 }
 
 MeanAndGauss from_measures(const Measures& sum) {

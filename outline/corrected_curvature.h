@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -37,6 +38,12 @@ class CorrectedCurvature {
   /// `stars`: as at construction.
   void run(const FaceStars& stars, std::span<const glm::vec4> points);
 
+  /// The same around some points only: their measures, and the normals at them and their neighbours, are then as run()
+  /// gives them, up to rounding; those elsewhere are not defined. `points` are not scaled yet; they are read at the
+  /// first and second ring only. Costs some twice as much a point; allocates until it has been asked for as many.
+  void run_at(const FaceStars& stars, std::span<const glm::vec3> points, float scale,
+              std::span<const std::uint32_t> wanted);
+
   std::span<const glm::vec4> normals() const { return normals_; }  ///< unit, or 0 where there is no area; w is 0
   std::span<const Measures> measures() const { return measures_; }
 
@@ -44,8 +51,16 @@ class CorrectedCurvature {
   static constexpr double kSize = 1024;
 
  private:
+  void add_normals(std::span<const glm::uvec3> faces, std::span<const glm::vec4> points);
+  void add_measures(std::span<const glm::uvec3> faces, std::span<const glm::vec4> points);
+
   std::vector<glm::vec4> normals_;
   std::vector<Measures> measures_;
+  std::vector<glm::uvec3> faces_;                   // of the part that run_at() is asked for
+  std::vector<std::uint32_t> ring_;                 // points
+  std::vector<glm::vec4> scaled_;                   // per point, where needed
+  std::vector<std::uint32_t> seen_face_, seen_at_;  // per face and point: by which sweep
+  std::uint32_t sweep_ = 0;
 };
 
 struct MeanAndGauss {

@@ -19,7 +19,10 @@ float finite(double value) {
 }  // namespace
 
 CurvatureSolver::CurvatureSolver(const mesh::Topology& topology, CurvatureMethod method)
-    : stars_(face_stars(topology)), corrected_(stars_) {
+    : stars_(face_stars(topology)),
+      method_(method),
+      rest_scale_(std::min(curvature_scale(stars_, topology.points), 0x1p127)),
+      corrected_(stars_) {
   const std::size_t count = stars_.point_count();
   if (method == CurvatureMethod::Meyer) meyer_.emplace(stars_);
   if (method == CurvatureMethod::Quadric) quadric_.emplace(stars_);
@@ -68,19 +71,33 @@ const Curvature& CurvatureSolver::solve(std::span<const glm::vec3> points) {
   return curvature_;
 }
 
-void CurvatureSolver::finish(double scale) {
-  const double scale_sq = scale * scale;
-  for (std::size_t p = 0; p < values_.size(); ++p) {
-    const float mean = std::clamp(values_[p].mean, -kSharpest, kSharpest);
-    const float gauss = std::clamp(values_[p].gauss, -kSharpest * kSharpest, kSharpest * kSharpest);
-    const float apart = std::sqrt(std::max(mean * mean - gauss, 0.0f));
-    curvature_.mean[p] = finite(mean * scale);
-    curvature_.gauss[p] = finite(gauss * scale_sq);
-    curvature_.largest[p] = finite((mean + apart) * scale);
-    curvature_.smallest[p] = finite((mean - apart) * scale);
-    const double area = meyer_ ? meyer_->area(p) : corrected_.measures()[p].flat_area / 3;
-    curvature_.area[p] = scale > 0 ? finite(area / scale_sq) : 0.0f;
+const Curvature& CurvatureSolver::solve_at(std::span<const glm::vec3> points, std::span<const std::uint32_t> wanted) {
+  if (method_ != CurvatureMethod::Icnc || !(rest_scale_ > 0)) return solve(points);
+  const auto factor = static_cast<float>(rest_scale_);
+  corrected_.run_at(stars_, points, factor, wanted);
+  const std::span<const Measures> measures = corrected_.measures();
+  for (const std::uint32_t p : wanted) {
+    values_[p] = from_measures(measures[p]);
+    finish(factor, p);
   }
+  return curvature_;
+}
+
+void CurvatureSolver::finish(double scale) {
+  for (std::size_t p = 0; p < values_.size(); ++p) finish(scale, p);
+}
+
+void CurvatureSolver::finish(double scale, std::size_t p) {
+  const double scale_sq = scale * scale;
+  const float mean = std::clamp(values_[p].mean, -kSharpest, kSharpest);
+  const float gauss = std::clamp(values_[p].gauss, -kSharpest * kSharpest, kSharpest * kSharpest);
+  const float apart = std::sqrt(std::max(mean * mean - gauss, 0.0f));
+  curvature_.mean[p] = finite(mean * scale);
+  curvature_.gauss[p] = finite(gauss * scale_sq);
+  curvature_.largest[p] = finite((mean + apart) * scale);
+  curvature_.smallest[p] = finite((mean - apart) * scale);
+  const double area = meyer_ ? meyer_->area(p) : corrected_.measures()[p].flat_area / 3;
+  curvature_.area[p] = scale > 0 ? finite(area / scale_sq) : 0.0f;
 }
 
 Curvature curvature(const mesh::Topology& topology, CurvatureMethod method) {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <vector>
@@ -49,13 +51,20 @@ class CurvatureSolver {
   /// so place objects by their transform.
   const Curvature& solve(std::span<const glm::vec3> points);
 
+  /// The same at some points only; elsewhere the result is not defined. In Icnc's case only their surroundings are
+  /// looked at, and in the scale of the topology's own points, so that poses may be a thousand times larger or smaller.
+  const Curvature& solve_at(std::span<const glm::vec3> points, std::span<const std::uint32_t> wanted);
+
   const FaceStars& stars() const { return stars_; }
 
  private:
   double scale_points(std::span<const glm::vec3> points);
   void finish(double scale);
+  void finish(double scale, std::size_t point);
 
   FaceStars stars_;
+  CurvatureMethod method_;
+  double rest_scale_ = 0;
   CorrectedCurvature corrected_;
   std::optional<MeyerCurvature> meyer_;
   std::optional<QuadricFit> quadric_;

@@ -6,10 +6,12 @@
 #include <map>
 #include <optional>
 #include <span>
+#include <tuple>
 #include <utility>
 
 #include <glm/vec3.hpp>
 
+#include "pipeline/animated.h"
 #include "pipeline/fluff.h"
 #include "pipeline/gl/context.h"
 #include "pipeline/in_parallel.h"
@@ -38,13 +40,15 @@ struct PreparedObject {
   mesh::Imported imported;
   passes::ToonOptions toon;
   passes::ObjectShape shape;
-  std::vector<float> line_factors;
+  std::vector<float> line_factors;  // what `line` refers to
+  passes::LineStyle line;
   std::optional<Fluff> fluff;
 };
 
 mesh::Imported import_mesh(const ObjectScene& object) {
   mesh::ImportOptions options;
   options.crease_deg = object.crease_deg;
+  options.rig = object.animation.has_value();
   return mesh::import(object.mesh, options);
 }
 
@@ -64,12 +68,17 @@ PreparedObject prepare(mesh::Imported imported, const ObjectScene& object, const
   const glm::dmat4 place = world_from_object(object, mesh::bounding_box(mesh.positions), imported.summary.up);
   const passes::ToonOptions toon = toon_options(object, light);
   passes::ObjectShape shape(mesh, place, passes::band_borders(mesh, place, toon));
+  if (object.animation) {
+    shape.animate(mesh, imported.rig, playback(*object.animation, imported.rig, object.mesh));
+  }
   std::vector<float> factors;
-  if (object.outline) factors = line_width_factors(mesh, *object.outline);
+  passes::LineStyle line;
+  if (object.outline) line = line_style(mesh, *object.outline, object.animation.has_value(), factors);
   std::optional<Fluff> fluff;
   if (object.fluffy) fluff = prepare_fluff(object, mesh, place);
   if (object.fluffy && object.outline) thin_line_under_fluff(factors, object, mesh);
-  return {std::move(imported), toon, std::move(shape), std::move(factors), std::move(fluff)};
+  line.factors = factors;
+  return {std::move(imported), toon, std::move(shape), std::move(factors), std::move(line), std::move(fluff)};
 }
 
 // Whether the mesh's file moves it: regions are of its pose at rest.
@@ -103,11 +112,12 @@ void use_regions(const Scene& scene, std::span<std::optional<PreparedObject>> al
 
 // Objects of one file share its import, which takes a process.
 std::vector<std::optional<PreparedObject>> prepare_all(const Scene& scene, const RegionOptions& regions) {
-  std::map<std::pair<std::filesystem::path, double>, std::size_t> known;
+  std::map<std::tuple<std::filesystem::path, double, bool>, std::size_t> known;
   std::vector<const ObjectScene*> distinct;
   std::vector<std::size_t> import_of;
   for (const ObjectScene& object : scene.objects) {
-    const auto [at, added] = known.try_emplace({object.mesh, object.crease_deg}, distinct.size());
+    const auto [at, added] =
+        known.try_emplace({object.mesh, object.crease_deg, object.animation.has_value()}, distinct.size());
     if (added) distinct.push_back(&object);
     import_of.push_back(at->second);
   }
@@ -166,7 +176,7 @@ std::vector<passes::StyledObject> style(const Scene& scene, std::vector<std::opt
     } else {
       one.passes.push_back(std::make_unique<passes::ToonPass>(*one.object, prepared.imported.mesh, prepared.toon));
     }
-    if (object.outline) add_outline(one, prepared.imported.mesh, *object.outline, prepared.line_factors);
+    if (object.outline) add_outline(one, prepared.imported.mesh, *object.outline, prepared.line);
     if (prepared.fluff) add_fluff(one, *prepared.fluff, object, scene.light);
     styled.push_back(std::move(one));
   }

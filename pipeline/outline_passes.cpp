@@ -10,7 +10,6 @@
 
 #include "mesh/bounds.h"
 #include "mesh/topology.h"
-#include "outline/curvature.h"
 #include "outline/line_width.h"
 #include "outline/pass/hull_pass.h"
 #include "outline/strokes/bristles.h"
@@ -44,14 +43,14 @@ double radius_m(const passes::DrawnObject& object, const mesh::Mesh& mesh) {
 }
 
 std::unique_ptr<passes::ObjectPass> hull(passes::DrawnObject& object, const OutlineScene& line,
-                                         std::span<const float> factors) {
+                                         const passes::LineStyle& style) {
   outline::HullOptions options;
   options.width_px = static_cast<float>(line.width_px);
   options.width_m = static_cast<float>(line.width_m.value_or(0));
   options.least_px = static_cast<float>(line.min_px);
   options.most_px = static_cast<float>(line.max_px);
   options.colour = colour(line.colour);
-  options.style = {factors, static_cast<float>(line.taper_px)};
+  options.style = style;
   return std::make_unique<outline::HullPass>(object, options);
 }
 
@@ -157,7 +156,7 @@ std::unique_ptr<passes::ObjectPass> inner_lines(passes::DrawnObject& object, con
 }  // namespace
 
 void add_outline(passes::StyledObject& styled, const mesh::Mesh& mesh, const OutlineScene& line,
-                 std::span<const float> factors) {
+                 const passes::LineStyle& style) {
   passes::DrawnObject& object = *styled.object;
   // What lies over the body comes before it in the list.
   std::vector<std::unique_ptr<passes::ObjectPass>> over;
@@ -166,10 +165,10 @@ void add_outline(passes::StyledObject& styled, const mesh::Mesh& mesh, const Out
     case M::Uniform:
     case M::Curvature:
     case M::ZLines:
-      under = hull(object, line, factors);
+      under = hull(object, line, style);
       break;
     case M::HiddenLines:
-      under = hull(object, line, factors);
+      under = hull(object, line, style);
       if (line.style.inner) over.push_back(hidden_lines(object, mesh, line, *line.style.inner));
       break;
     case M::Hull:
@@ -190,7 +189,7 @@ void add_outline(passes::StyledObject& styled, const mesh::Mesh& mesh, const Out
     case M::Wobble:
       // Where the contour zigzags over small triangles strokes may leave a gap; a thin even line closes it.
       styled.passes.push_back(strokes(object, mesh, line));
-      under = hull(object, least_of(line), factors);
+      under = hull(object, least_of(line), style);
       break;
     case M::Strokes:
       over.push_back(strokes(object, mesh, line));
@@ -202,8 +201,11 @@ void add_outline(passes::StyledObject& styled, const mesh::Mesh& mesh, const Out
   if (under) styled.passes.push_back(std::move(under));
 }
 
-std::vector<float> line_width_factors(const mesh::Mesh& mesh, const OutlineScene& line) {
-  if (line.method != M::Curvature) return {};
+passes::LineStyle line_style(const mesh::Mesh& mesh, const OutlineScene& line, bool moves,
+                             std::vector<float>& factors) {
+  passes::LineStyle style;
+  style.taper_px = static_cast<float>(line.taper_px);
+  if (line.method != M::Curvature) return style;
   outline::WidthOptions options;
   options.kind = line.curvature;
   options.sign = line.sign;
@@ -213,8 +215,16 @@ std::vector<float> line_width_factors(const mesh::Mesh& mesh, const OutlineScene
   options.least = static_cast<float>(line.min_factor);
   options.smoothing = line.smoothing;
   const mesh::Topology topology = mesh::topology(mesh);
-  const outline::Curvature found = outline::curvature(topology);
-  return outline::line_width_factors(topology, found, outline::k95(found), options);
+  const auto widths = std::make_shared<outline::CurvatureWidths>(topology, options);
+  if (moves) {
+    style.most_factor = 1 + options.exaggeration;
+    style.follow = [widths](const passes::LineStyle::Moved& now) { widths->at(now.points, now.wanted, now.factors); };
+  } else {
+    const std::span<const float> found = widths->at(topology.points);
+    factors.assign(found.begin(), found.end());
+    style.factors = factors;
+  }
+  return style;
 }
 
 }  // namespace rinkaku::pipeline

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <span>
+#include <vector>
 
 #include "mesh/mesh.h"
 #include "pipeline/passes/layer_renderer.h"
@@ -9,12 +9,14 @@
 namespace rinkaku::pipeline {
 
 /// Adds the passes that draw an object's lines: some before its body's, which are those that lie over it, some after.
-/// `styled` holds the object and its body's pass. `factors` multiply widths at the mesh's welded points, for the method
-/// Curvature. Needs a current GL context. Throws Error (Input) for a stroke image that can't be read.
+/// `styled` holds the object and its body's pass. `style` is what line_style() gave. Needs a current GL context. Throws
+/// Error (Input) for a stroke image that can't be read.
 void add_outline(passes::StyledObject& styled, const mesh::Mesh& mesh, const OutlineScene& outline,
-                 std::span<const float> factors);
+                 const passes::LineStyle& style);
 
-/// What the method Curvature multiplies widths by, per welded point of the mesh; empty for the others. No GL.
-std::vector<float> line_width_factors(const mesh::Mesh& mesh, const OutlineScene& outline);
+/// What varies along an object's line: how it ends, and how it follows the shape, found once in `factors` (per welded
+/// point of the mesh, empty where it is even), or in every frame if the object moves. No GL.
+passes::LineStyle line_style(const mesh::Mesh& mesh, const OutlineScene& outline, bool moves,
+                             std::vector<float>& factors);
 
 }  // namespace rinkaku::pipeline

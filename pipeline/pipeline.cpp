@@ -97,6 +97,8 @@ RenderReport render(const Prepared& prepared, const RenderOptions& options, cons
 
   std::optional<passes::LensMap> lens;
   if (plan.runs("lens")) lens.emplace(*prepared.camera);
+  // On the video's clock, whatever its file's says.
+  const auto time_s = [first_s = described.first_time_s()](const Frame& frame) { return frame.time_s() - first_s; };
   std::optional<Drawing> drawing;
   std::optional<WaterStage> water;
   SpentLayers spent;
@@ -118,7 +120,7 @@ RenderReport render(const Prepared& prepared, const RenderOptions& options, cons
       if (watcher) take_change(*watcher, work.frame, *drawing);
       if (!work.pose || work.pose->opacity <= 0) return;
       ++result.posed_frames;
-      drawing->renderer->draw({*prepared.camera, work.pose->camera_from_world}, work.layer);
+      drawing->renderer->draw({*prepared.camera, work.pose->camera_from_world, time_s(work.frame)}, work.layer);
     });
   }
   passes::Layer distorted;

@@ -61,6 +61,13 @@ Verdict import(const Facts& f) {
   return {true, "each object's mesh is read before the first frame"};
 }
 
+Verdict animate(const Facts& f) {
+  if (!f.draws()) return {false, no_object};
+  const std::size_t n = f.count([](const ObjectScene& o) { return o.animation.has_value(); });
+  if (n == 0) return {false, "no object is animated"};
+  return {true, objects(n) + " played in time with the video"};
+}
+
 Verdict toon(const Facts& f) {
   if (!f.draws()) return {false, no_object};
   const std::size_t n = f.count([](const ObjectScene& o) { return o.toon.has_value(); });
@@ -198,16 +205,19 @@ const std::vector<Kind>& kinds() {
       {"track", track, {"decode"}},
       {"smooth", smooth, {"track"}},
       {"import", import, {}},
+      {"animate", animate, {"decode", "import"}},
       {"toon", toon, {"import"}},
       {"flat", flat, {"import"}},
       {"holdout", holdout, {"import"}},
       {"regions", regions, {"import"}},
-      {"curvature", curvature, {"import"}},
+      {"curvature", curvature, {"import", "animate"}},
       {"line-targets", line_targets, {"import"}},
       {"outline", outline, {"import", "curvature", "line-targets"}},
       {"fluffy", fluffy, {"import"}},
       {"water", water, {"decode", "track", "smooth"}},
-      {"draw", draw, {"decode", "track", "smooth", "toon", "flat", "holdout", "regions", "outline", "fluffy", "water"}},
+      {"draw",
+       draw,
+       {"decode", "track", "smooth", "animate", "toon", "flat", "holdout", "regions", "outline", "fluffy", "water"}},
       {"lens", lens, {"draw"}},
       {"composite", composite, {"decode", "draw", "lens"}},
       {"unmultiply", unmultiply, {"draw", "lens"}},

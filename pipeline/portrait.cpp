@@ -111,7 +111,10 @@ Frame portrait(const mesh::Mesh& mesh, const PortraitOptions& options) {
     styled.object = std::make_unique<passes::DrawnObject>(
         passes::ObjectShape(mesh, world_from_mesh, passes::band_borders(mesh, world_from_mesh, toon)));
     styled.passes.push_back(std::make_unique<passes::ToonPass>(*styled.object, mesh, toon));
-    if (options.outline) add_outline(styled, mesh, *options.outline, line_width_factors(mesh, *options.outline));
+    if (options.outline) {
+      std::vector<float> factors;
+      add_outline(styled, mesh, *options.outline, line_style(mesh, *options.outline, false, factors));
+    }
     std::vector<passes::StyledObject> objects;
     objects.push_back(std::move(styled));
     passes::LayerRenderer renderer(std::move(objects), {0, 0, options.width_px, options.height_px});

@@ -61,6 +61,7 @@ nlohmann::json to_json(const mesh::Imported& imported, const mesh::Inspection& f
           {"textures", imported.mesh.textures.size()},
           {"texture_coordinates", !imported.mesh.uvs.empty()},
           {"skins", summary.skins},
+          {"skin_names", summary.skin_names},
           {"bones", summary.bones},
           {"morph_targets", summary.morph_targets},
           {"clips", clips},
@@ -120,12 +121,12 @@ void print(const mesh::Imported& imported, const mesh::Inspection& found) {
   print_count("duplicates", found.duplicates);
   print_count("slivers", found.slivers);
   print_count("isolated points", found.isolated);
-  print_count("skins", summary.skins);
+  for (const std::string& name : summary.skin_names) print_row("skin", name.empty() ? "(no name)" : name);
   print_count("bones", summary.bones);
   print_count("morph targets", summary.morph_targets);
   for (const mesh::Clip& clip : summary.clips) {
     std::snprintf(text, sizeof text, "%.2f s", clip.duration_s);
-    print_row("clip", clip.name + ", " + text);
+    print_row("clip", (clip.name.empty() ? "(no name)" : clip.name) + ", " + text);
   }
   print_count("dropped lines", summary.dropped_lines);
   print_count("dropped points", summary.dropped_points);

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <fstream>
 #include <iterator>
+#include <optional>
 #include <set>
 #include <unordered_map>
 #include <utility>
@@ -17,6 +18,7 @@
 #include "mesh/import_message.h"
 #include "mesh/import_worker/materials.h"
 #include "mesh/import_worker/read_file.h"
+#include "mesh/import_worker/rig_reader.h"
 
 namespace rinkaku::mesh {
 namespace {
@@ -115,8 +117,10 @@ bool mirrors(const Matrix& m) {
 
 class SceneReader {
  public:
-  SceneReader(const aiScene& scene, const fs::path& folder, const Format& format, bool keep_normals)
-      : scene_(scene), format_(format), keep_normals_(keep_normals), textures_(&scene, folder) {}
+  SceneReader(const aiScene& scene, const fs::path& folder, const Format& format, bool keep_normals, bool rig)
+      : scene_(scene), format_(format), keep_normals_(keep_normals), textures_(&scene, folder) {
+    if (rig) rig_.emplace(scene);
+  }
 
   ReadScene read() {
     place_nodes();
@@ -128,6 +132,7 @@ class SceneReader {
     }
     Soup& soup = result_.soup;
     soup.textures = std::move(textures_.textures);
+    if (rig_) soup.rig = rig_->finish();
     auto& warnings = result_.summary.warnings;
     warnings.insert(warnings.end(), textures_.warnings.begin(), textures_.warnings.end());
     summarise();
@@ -145,7 +150,9 @@ class SceneReader {
     while (!open.empty()) {
       const Placed at = open.back();
       open.pop_back();
-      world_by_name_.emplace(at.node->mName.C_Str(), at.world);
+      // Bones are known by name only; of several nodes of one name, they are the one that is no mesh itself.
+      const auto [known, fresh] = world_by_name_.try_emplace(at.node->mName.C_Str(), at);
+      if (!fresh && known->second.node->mNumMeshes > 0 && at.node->mNumMeshes == 0) known->second = at;
       placed_.push_back(at);
       for (unsigned i = at.node->mNumChildren; i-- > 0;) {
         const aiNode* child = at.node->mChildren[i];
@@ -190,7 +197,7 @@ class SceneReader {
       const aiBone& bone = *mesh.mBones[b];
       const auto node = world_by_name_.find(bone.mName.C_Str());
       if (node == world_by_name_.end()) continue;
-      const Matrix joint = node->second * Matrix(bone.mOffsetMatrix);
+      const Matrix joint = node->second.world * Matrix(bone.mOffsetMatrix);
       for (unsigned w = 0; w < bone.mNumWeights; ++w) {
         const aiVertexWeight& weight = bone.mWeights[w];
         if (weight.mVertexId >= mesh.mNumVertices || !(weight.mWeight > 0)) continue;
@@ -212,6 +219,7 @@ class SceneReader {
     std::vector<Matrix> of_vertex;
     if (mesh.HasBones()) of_vertex = skinned_transforms(mesh, world);
     add_vertices(mesh, world, of_vertex);
+    if (rig_) rig_->add_vertices(mesh, node);
     const bool mirrored = mirrors(of_vertex.empty() ? world : of_vertex.front());
     add_faces(mesh, node, static_cast<std::uint32_t>(first), mirrored);
   }
@@ -286,7 +294,10 @@ class SceneReader {
     std::set<std::string> bones;
     for (unsigned i = 0; i < scene_.mNumMeshes; ++i) {
       const aiMesh& mesh = *scene_.mMeshes[i];
-      s.skins += mesh.HasBones() ? 1 : 0;
+      if (mesh.HasBones()) {
+        ++s.skins;
+        s.skin_names.push_back(mesh.mName.C_Str());
+      }
       s.morph_targets += mesh.mNumAnimMeshes;
       for (unsigned b = 0; b < mesh.mNumBones; ++b) bones.insert(mesh.mBones[b]->mName.C_Str());
     }
@@ -303,8 +314,9 @@ class SceneReader {
   Format format_;
   bool keep_normals_;
   TextureReader textures_;
+  std::optional<RigReader> rig_;
   std::vector<Placed> placed_;
-  std::unordered_map<std::string, Matrix> world_by_name_;
+  std::unordered_map<std::string, Placed> world_by_name_;
   std::unordered_map<unsigned, std::uint32_t> material_numbers_;
   bool any_uvs_ = false, any_colours_ = false, any_normals_ = false;
   ReadScene result_;
@@ -342,7 +354,7 @@ void note_missing_materials(const fs::path& file, ReadScene& scene) {
 
 }  // namespace
 
-ReadScene read_with_assimp(const fs::path& file, ImportOptions::Normals normals) {
+ReadScene read_with_assimp(const fs::path& file, ImportOptions::Normals normals, bool rig) {
   const std::string ending = lower_ending(file);
   const Format format = format_of(ending);
   Assimp::Importer importer;
@@ -350,7 +362,7 @@ ReadScene read_with_assimp(const fs::path& file, ImportOptions::Normals normals)
   const aiScene& scene = load(importer, file, ending, bad_faces);
   const bool keep_normals =
       normals == ImportOptions::Normals::File || (normals == ImportOptions::Normals::ByFormat && format.own_normals);
-  ReadScene result = SceneReader(scene, file.parent_path(), format, keep_normals).read();
+  ReadScene result = SceneReader(scene, file.parent_path(), format, keep_normals, rig).read();
   result.summary.format = format.name != nullptr ? format.name : reader_name(importer);
   result.summary.up = up_axis(scene, format);
   result.summary.dropped_bad_index += bad_faces;

@@ -1,7 +1,7 @@
 // rinkaku-import: reads one mesh file for the program that started it and answers on its standard output, in
 // import_message.h's form. It limits itself first, so that no file, however broken, takes more than it may.
 //
-// Arguments: FILE CREASE_DEG NORMALS MEMORY_BYTES CPU_SECONDS. Not for people to call.
+// Arguments: FILE CREASE_DEG NORMALS MEMORY_BYTES CPU_SECONDS RIG. Not for people to call.
 
 #include <cerrno>
 #include <cstdlib>
@@ -56,8 +56,8 @@ bool write_all(int fd, std::span<const std::uint8_t> bytes) {
   return true;
 }
 
-Imported read(const char* file, double crease_deg, ImportOptions::Normals normals) {
-  ReadScene scene = read_file(file, normals);
+Imported read(const char* file, double crease_deg, ImportOptions::Normals normals, bool rig) {
+  ReadScene scene = read_file(file, normals, rig);
   if (scene.soup.triangles.empty()) {
     throw ImportFailure{"it has no faces", "export a mesh with triangles, not only points or lines"};
   }
@@ -70,13 +70,13 @@ Imported read(const char* file, double crease_deg, ImportOptions::Normals normal
   scene.summary.dropped_bad_index += assembled.dropped.bad_index;
   scene.summary.dropped_collapsed += assembled.dropped.collapsed;
   scene.summary.unused_vertices += assembled.dropped.unused_vertices;
-  return {std::move(assembled.mesh), std::move(scene.summary)};
+  return {std::move(assembled.mesh), std::move(scene.summary), std::move(assembled.rig)};
 }
 
 std::vector<std::uint8_t> answer(char** arguments) {
   try {
     return encode(read(arguments[1], std::strtod(arguments[2], nullptr),
-                       static_cast<ImportOptions::Normals>(std::atoi(arguments[3]))));
+                       static_cast<ImportOptions::Normals>(std::atoi(arguments[3])), std::atoi(arguments[6]) != 0));
   } catch (const ImportFailure& failure) {
     return encode(failure);
   } catch (const std::bad_alloc&) {
@@ -91,7 +91,7 @@ std::vector<std::uint8_t> answer(char** arguments) {
 
 int main(int count, char** arguments) {
   using namespace rinkaku::mesh;
-  if (count != 6) return 2;
+  if (count != 7) return 2;
   limit_self(std::strtoull(arguments[4], nullptr, 10), std::strtoull(arguments[5], nullptr, 10));
   const int out = take_standard_output();
   const bool written = write_all(out, answer(arguments));

@@ -12,12 +12,12 @@ std::string lower_ending(const std::filesystem::path& file) {
   return ending;
 }
 
-ReadScene read_file(const std::filesystem::path& file, ImportOptions::Normals normals) {
+ReadScene read_file(const std::filesystem::path& file, ImportOptions::Normals normals, bool rig) {
   const std::string ending = lower_ending(file);
   const bool keep_normals = normals == ImportOptions::Normals::File;
   if (ending == ".ply") return read_ply(file, keep_normals);
   if (ending == ".off") return read_off(file, keep_normals);
-  return read_with_assimp(file, normals);
+  return read_with_assimp(file, normals, rig);
 }
 
 }  // namespace rinkaku::mesh

@@ -19,8 +19,9 @@ struct ReadScene {
   ImportSummary summary;
 };
 
-/// Reads a mesh file into triangles. `normals` says whether the file's normals go into the soup. Throws ImportFailure.
-ReadScene read_file(const std::filesystem::path& file, ImportOptions::Normals normals);
+/// Reads a mesh file into triangles. `normals` says whether the file's normals go into the soup, `rig` whether how it
+/// moves does. Throws ImportFailure.
+ReadScene read_file(const std::filesystem::path& file, ImportOptions::Normals normals, bool rig);
 
 /// The readers behind it. PLY and OFF are read here, not by Assimp, which takes blanks between lines for data in a
 /// binary PLY, knows no binary OFF and stumbles over comments.
@@ -28,7 +29,7 @@ ReadScene read_ply(const std::filesystem::path& file, bool keep_normals);
 ReadScene read_off(const std::filesystem::path& file, bool keep_normals);
 /// Everything else: node transforms applied, skinned meshes in the pose their nodes have, polygons cut into triangles,
 /// lines and points counted and left out.
-ReadScene read_with_assimp(const std::filesystem::path& file, ImportOptions::Normals normals);
+ReadScene read_with_assimp(const std::filesystem::path& file, ImportOptions::Normals normals, bool rig);
 
 /// The whole file. Throws ImportFailure if it can't be read.
 std::vector<char> read_bytes(const std::filesystem::path& file);

@@ -24,13 +24,12 @@ bool is_crease(const mesh::Mesh& mesh, const mesh::Edge& edge) {
   return false;
 }
 
-// In the object's coordinates, of length 1: in the triangle's plane, at right angles to the edge in the world, away
-// from the edge.
-glm::dvec3 across(const mesh::Topology& topology, const mesh::Edge& edge, std::uint32_t face,
-                  const glm::dmat3& world_from_object, const glm::dmat3& object_from_world) {
-  const glm::dvec3 a = world_from_object * glm::dvec3(topology.points[edge.a]);
-  const glm::dvec3 along = world_from_object * glm::dvec3(topology.points[edge.b]) - a;
-  const glm::dvec3 to = world_from_object * glm::dvec3(topology.points[mesh::opposite_point(topology, edge, face)]) - a;
+// In the object's coordinates, of length 1: at right angles in the world to the edge from a to b, towards `beyond`.
+glm::dvec3 across(const glm::vec3& a, const glm::vec3& b, const glm::vec3& beyond, const glm::dmat3& world_from_object,
+                  const glm::dmat3& object_from_world) {
+  const glm::dvec3 from = world_from_object * glm::dvec3(a);
+  const glm::dvec3 along = world_from_object * glm::dvec3(b) - from;
+  const glm::dvec3 to = world_from_object * glm::dvec3(beyond) - from;
   const double squared = glm::dot(along, along);
   const glm::dvec3 upright = squared > 0 ? to - along * (glm::dot(to, along) / squared) : to;
   const glm::dvec3 direction = object_from_world * upright;
@@ -41,7 +40,8 @@ glm::dvec3 across(const mesh::Topology& topology, const mesh::Edge& edge, std::u
 }  // namespace
 
 BorderStrips::BorderStrips(const mesh::Mesh& mesh, const mesh::Topology& topology,
-                           std::span<const ShapeVertex> vertices, const glm::dmat4& world_from_object, bool creases) {
+                           std::span<const ShapeVertex> vertices, const glm::dmat4& world_from_object, bool creases)
+    : world_from_object_(world_from_object), object_from_world_(glm::inverse(world_from_object_)) {
   const std::vector<std::uint32_t> part_of = mesh::part_of_triangles(mesh);
   struct Border {
     std::uint32_t part, edge, of, over;  // the face whose colour it has, and the one it lies on
@@ -57,22 +57,33 @@ BorderStrips::BorderStrips(const mesh::Mesh& mesh, const mesh::Topology& topolog
     borders.push_back({part_of[edge.face1], e, edge.face1, edge.face0});
   }
   std::stable_sort(borders.begin(), borders.end(), [](const Border& a, const Border& b) { return a.part < b.part; });
-  const glm::dmat3 linear(world_from_object), inverse(glm::inverse(linear));
   for (const Border& border : borders) {
     const mesh::Edge& edge = topology.edges[border.edge];
-    std::array<std::int16_t, 4> direction = snorm(across(topology, edge, border.over, linear, inverse));
-    direction[3] = 32767 / 2;  // half a pixel over either side
-    for (std::int16_t rim : {0, 32767}) {
-      for (std::uint32_t point : {edge.a, edge.b}) {
-        BorderVertex v{vertices[mesh::corner_at(mesh, border.of, point)], direction};
-        v.shape.outline_normal[3] = rim;
-        vertices_.push_back(v);
-      }
-    }
-    quads_.push_back({border.part, border.of, border.over});
+    quads_.push_back({border.part, border.of, border.over, mesh::corner_at(mesh, border.of, edge.a),
+                      mesh::corner_at(mesh, border.of, edge.b),
+                      mesh::corner_at(mesh, border.over, mesh::opposite_point(topology, edge, border.over))});
   }
+  vertices_.resize(quads_.size() * 4);
+  move(vertices);
   indices_.reserve(quads_.size() * 6);
   runs_.reserve(mesh.parts.size());
+}
+
+void BorderStrips::move(std::span<const ShapeVertex> vertices) {
+  auto out = vertices_.begin();
+  for (const Quad& quad : quads_) {
+    std::array<std::int16_t, 4> direction =
+        snorm(across(vertices[quad.a].position, vertices[quad.b].position, vertices[quad.beyond].position,
+                     world_from_object_, object_from_world_));
+    direction[3] = 32767 / 2;  // half a pixel over either side
+    for (const std::int16_t rim : {0, 32767}) {
+      for (const std::uint32_t vertex : {quad.a, quad.b}) {
+        *out = {vertices[vertex], direction};
+        out->shape.outline_normal[3] = rim;
+        ++out;
+      }
+    }
+  }
 }
 
 void BorderStrips::mark_triangles(std::vector<std::uint8_t>& mask) const {

@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include <glm/mat3x3.hpp>
 #include <glm/mat4x4.hpp>
 
 #include "mesh/contour.h"
@@ -26,10 +27,13 @@ class BorderStrips {
   /// Lists the quads whose two triangles both face the eye. Allocates nothing once warm.
   void collect(const mesh::Contour& contour);
 
+  /// The mesh has moved: `vertices` are its new ones. About 50 ns a border's edge.
+  void move(std::span<const ShapeVertex> vertices);
+
   /// Marks (1) the triangles on either side, by number.
   void mark_triangles(std::vector<std::uint8_t>& mask) const;
 
-  std::span<const BorderVertex> vertices() const { return vertices_; }  ///< the same in every frame
+  std::span<const BorderVertex> vertices() const { return vertices_; }  ///< until the mesh moves
   std::span<const std::uint32_t> indices() const { return indices_; }
   std::span<const Run> runs() const { return runs_; }
 
@@ -37,7 +41,10 @@ class BorderStrips {
   struct Quad {
     std::uint32_t part;
     std::uint32_t face0, face1;
+    // Vertices of the mesh: at the edge's ends in the face whose colour the quad has; the other face's third.
+    std::uint32_t a, b, beyond;
   };
+  glm::dmat3 world_from_object_, object_from_world_;
   std::vector<Quad> quads_;  // in the order of parts
   std::vector<BorderVertex> vertices_;
   std::vector<std::uint32_t> indices_;

@@ -17,8 +17,9 @@ namespace rinkaku::passes {
 /// No GL.
 class ContourStrips {
  public:
-  /// `two_sided`: also what faces away is seen. Keeps neither mesh nor topology.
-  ContourStrips(const mesh::Mesh& mesh, const mesh::Topology& topology, bool two_sided);
+  /// `two_sided`: also what faces away is seen. `moving`: the vertices given to collect() move. Keeps neither mesh nor
+  /// topology.
+  ContourStrips(const mesh::Mesh& mesh, const mesh::Topology& topology, bool two_sided, bool moving = false);
 
   /// `vertices` are the mesh's. Allocates nothing once warm.
   void collect(const mesh::Contour& contour, std::span<const ShapeVertex> vertices);
@@ -42,8 +43,9 @@ class ContourStrips {
     std::uint32_t part0, part1;
     std::uint32_t face0, face1;
     bool always_hidden;
+    std::uint32_t opposite0 = mesh::kNone, opposite1 = mesh::kNone;  // if the mesh moves and that may hide the edge
   };
-  void collect_pieces(const mesh::Contour& contour);
+  void collect_pieces(const mesh::Contour& contour, std::span<const ShapeVertex> vertices);
   void emit(std::span<const ShapeVertex> vertices, const Piece& piece);
 
   std::vector<EdgeVertices> edges_;

@@ -17,11 +17,12 @@ void attribute(GLuint array, GLuint location, GLint size, GLenum type, GLboolean
 
 DrawnObject::DrawnObject(ObjectShape shape)
     : shape_(std::move(shape)), mesh_array_(make_vertex_array()), contour_array_(make_vertex_array()) {
+  if (shape_.intersects_itself()) intersection_array_ = make_border_array();
+  if (!shape_.border_vertices().empty()) border_array_ = make_border_array();
+  if (shape_.moves()) return;
   vertex_buffer_ = gl::StaticBuffer(std::as_bytes(shape_.vertices()));
   glVertexArrayVertexBuffer(mesh_array_.name(), 0, vertex_buffer_.name(), 0, sizeof(ShapeVertex));
-  if (shape_.intersects_itself()) intersection_array_ = make_border_array();
   if (shape_.border_vertices().empty()) return;
-  border_array_ = make_border_array();
   border_buffer_ = gl::StaticBuffer(std::as_bytes(shape_.border_vertices()));
   glVertexArrayVertexBuffer(border_array_.name(), 0, border_buffer_.name(), 0, sizeof(BorderVertex));
 }
@@ -43,7 +44,18 @@ gl::VertexArrayHandle DrawnObject::make_border_array() {
   return array;
 }
 
+void DrawnObject::upload_movement() {
+  if (!shape_.moves() || moves_sent_ == shape_.moves_made()) return;
+  moves_sent_ = shape_.moves_made();
+  moving_vertex_buffer_.write(std::as_bytes(shape_.vertices()));
+  glVertexArrayVertexBuffer(mesh_array_.name(), 0, moving_vertex_buffer_.name(), 0, sizeof(ShapeVertex));
+  if (shape_.border_vertices().empty()) return;
+  moving_border_buffer_.write(std::as_bytes(shape_.border_vertices()));
+  glVertexArrayVertexBuffer(border_array_.name(), 0, moving_border_buffer_.name(), 0, sizeof(BorderVertex));
+}
+
 void DrawnObject::upload() {
+  upload_movement();
   const Look& look = shape_.last_look();
   front_buffer_.write(std::as_bytes(look.front));
   strip_buffer_.write(std::as_bytes(look.strip_vertices));

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <span>
 
 #include "pipeline/gl/buffer.h"
@@ -35,12 +36,17 @@ class DrawnObject {
   std::span<const Run> bind_intersections();
 
  private:
+  void upload_movement();
   static gl::VertexArrayHandle make_vertex_array();
   static gl::VertexArrayHandle make_border_array();
   void bind_triangles(GLuint buffer);
 
   ObjectShape shape_;
   gl::StaticBuffer vertex_buffer_;
+  // In their place where the object moves.
+  gl::StreamBuffer moving_vertex_buffer_;
+  gl::StreamBuffer moving_border_buffer_;
+  std::uint64_t moves_sent_ = 0;
   gl::StreamBuffer front_buffer_;
   gl::StreamBuffer strip_buffer_;
   gl::StreamBuffer strip_index_buffer_;

@@ -60,7 +60,7 @@ struct IntersectionStrips::Eye {
 
 IntersectionStrips::IntersectionStrips(const mesh::Mesh& mesh, const mesh::Topology& topology,
                                        std::span<const mesh::Cut> cuts, const glm::dmat4& world_from_object)
-    : object_from_world_(glm::inverse(world_from_object)) {
+    : world_from_object_(world_from_object), object_from_world_(glm::inverse(world_from_object)) {
   if (cuts.empty()) return;
   const std::vector<std::uint32_t> part_of = mesh::part_of_triangles(mesh);
   const glm::dmat3 world_from_normal = glm::transpose(glm::dmat3(object_from_world_));
@@ -69,7 +69,7 @@ IntersectionStrips::IntersectionStrips(const mesh::Mesh& mesh, const mesh::Topol
     if (number_of[point] == mesh::kNone) {
       number_of[point] = static_cast<std::uint32_t>(points_.size());
       points_.push_back({glm::dvec3(world_from_object * glm::dvec4(topology.points[point], 1)),
-                         unit(world_from_normal * glm::dvec3(topology.outline_normals[point]))});
+                         unit(world_from_normal * glm::dvec3(topology.outline_normals[point])), point});
     }
     return number_of[point];
   };
@@ -105,12 +105,54 @@ glm::dvec3 IntersectionStrips::across(const TwoFaces& two, int of) {
 
 void IntersectionStrips::add_quad(const mesh::Mesh& mesh, const mesh::Cut& cut, int of, std::uint32_t part) {
   const glm::dvec3 direction = glm::dmat3(object_from_world_) * across(cuts_.back(), of);
-  Quad quad{part, static_cast<std::uint32_t>(cuts_.size() - 1), of, {}};
+  Quad quad{part, static_cast<std::uint32_t>(cuts_.size() - 1), of, {}, mesh.triangles[cut.faces[of]]};
   for (int end = 0; end < 2; ++end) {
     quad.ends[end].shape = interpolated(mesh, mesh.triangles[cut.faces[of]], cut.weights[of][end]);
     quad.ends[end].across = snorm(unit(direction));
   }
   quads_.push_back(quad);
+}
+
+void IntersectionStrips::move(std::span<const glm::vec3> points, std::span<const glm::vec3> outline_normals,
+                              std::span<const ShapeVertex> vertices) {
+  const glm::dmat3 world_from_normal = glm::transpose(glm::dmat3(object_from_world_));
+  for (Point& p : points_) {
+    p.position_m = glm::dvec3(world_from_object_ * glm::dvec4(points[p.number], 1));
+    p.outline_normal = unit(world_from_normal * glm::dvec3(outline_normals[p.number]));
+  }
+  for (TwoFaces& two : cuts_) {
+    std::array<std::array<glm::dvec3, 2>, 2> ends_m;  // of the sides, then
+    for (int side : {0, 1}) {
+      Side& s = two.sides[side];
+      const auto corner = [&](int k) { return glm::dvec3(points[points_[s.corners[k]].number]); };
+      s.normal = unit(world_from_normal * glm::cross(corner(1) - corner(0), corner(2) - corner(0)));
+      for (int end : {0, 1}) {
+        const glm::dvec3& w = s.weights[end];
+        ends_m[side][end] = w.x * points_[s.corners.x].position_m + w.y * points_[s.corners.y].position_m +
+                            w.z * points_[s.corners.z].position_m;
+      }
+    }
+    two.apart_m = 0;
+    for (int end : {0, 1}) {
+      two.ends_m[end] = (ends_m[0][end] + ends_m[1][end]) * 0.5;
+      two.apart_m = std::max(two.apart_m, glm::distance(ends_m[0][end], ends_m[1][end]));
+    }
+    two.across = across(two, 0);
+  }
+  for (Quad& quad : quads_) {
+    const TwoFaces& two = cuts_[quad.cut];
+    const auto direction = snorm(unit(glm::dmat3(object_from_world_) * across(two, quad.of)));
+    for (int end : {0, 1}) {
+      const glm::dvec3& w = two.sides[quad.of].weights[end];
+      glm::dvec3 normal(0);
+      for (int k = 0; k < 3; ++k) {
+        const auto& n = vertices[quad.corners[k]].normal;
+        normal += w[k] * glm::dvec3(n[0], n[1], n[2]);
+      }
+      quad.ends[end].shape.normal = snorm(unit(normal));
+      quad.ends[end].across = direction;
+    }
+  }
 }
 
 void IntersectionStrips::collect(const mesh::Contour& contour, const View& view) {
@@ -162,6 +204,11 @@ void IntersectionStrips::place(const TwoFaces& two, const Eye& eye, bool first_f
   const glm::dvec3 across = eye.camera_from_world * (first_from_behind ? -two.across : two.across);
   for (int end : {0, 1}) {
     const glm::dvec3 position = eye.camera_from_world * two.ends_m[end] + eye.translation_m;
+    constexpr double most_apart_px = 0.5;
+    if (two.apart_m * eye.focal_px.x > most_apart_px * position.z) {
+      placed.seen = false;
+      return;
+    }
     const glm::dvec3 way = way_to_moved_line(normals, offset[end]);
     placed.ends[end] = glm::vec3(object_from_world_ * glm::dvec4(two.ends_m[end] + eye.world_from_camera * way, 1));
     // At right angles to the line in the picture, over the second face.

@@ -61,6 +61,19 @@ void LineStrips::style(const LineStyle& style) {
   factors_.assign(style.factors.begin(), style.factors.end());
   factors_.resize(hard_.size(), 1.0f);
   largest_factor_ = factors_.empty() ? 1.0f : *std::max_element(factors_.begin(), factors_.end());
+  follow_ = style.follow;
+  if (follow_) largest_factor_ = std::max(largest_factor_, style.most_factor);
+}
+
+void LineStrips::find_factors(const ContourStrips& contour, std::span<const glm::vec3> points,
+                              std::span<const glm::vec3> outline_normals) {
+  if (!follow_) return;
+  wanted_.clear();
+  for (const ContourStrips::Piece& piece : contour.pieces()) {
+    wanted_.push_back(welded_[piece.from]);
+    wanted_.push_back(welded_[piece.to]);
+  }
+  follow_({points, outline_normals, wanted_, factors_});
 }
 
 std::uint32_t LineStrips::place_at(std::uint32_t vertex, std::span<const ShapeVertex> vertices,

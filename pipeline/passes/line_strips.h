@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -33,8 +34,17 @@ struct LineVertex {
 struct LineStyle {
   /// What the width is multiplied by at each welded point, above 0; empty for 1.
   std::span<const float> factors{};
-  float taper_px = 0;  ///< where a line ends on a surface, it gets thinner over this length, or less if it soon goes
-                       ///< on; 0: not at all
+  /// For an object that moves: finds the factors each frame, where they are needed. Empty: they stay.
+  struct Moved {
+    std::span<const glm::vec3> points, outline_normals;  ///< of the welded points, as they are now
+    std::span<const std::uint32_t> wanted;               ///< the points whose factors are needed; some several times
+    std::span<float> factors;                            ///< per point, to be written
+  };
+  using Follow = std::function<void(const Moved&)>;
+  Follow follow{};
+  float most_factor = 0;  ///< the largest that `follow` may give
+  float taper_px = 0;     ///< where a line ends on a surface, it gets thinner over this length, or less if it soon goes
+                          ///< on; 0: not at all
 };
 
 /// Turns a contour into lines of right width: along each edge a quad, and at corners what closes them. No GL.
@@ -50,6 +60,10 @@ class LineStrips {
   /// Keeps neither mesh nor topology.
   LineStrips(const mesh::Mesh& mesh, const mesh::Topology& topology, bool mirrored);
   void style(const LineStyle& style);
+  /// Finds the factors of an object that moves along a contour, if the style has `follow`. Points and outline normals
+  /// as the topology has them.
+  void find_factors(const ContourStrips& contour, std::span<const glm::vec3> points,
+                    std::span<const glm::vec3> outline_normals);
 
   /// `to_pixels` takes a position to (x Z, y Z, Z, Z), x and y in pixels of the pinhole picture; `vertices` are the
   /// mesh's. Allocates nothing once warm. About 0.1 microseconds an edge, and as much again for a lens with distortion.
@@ -110,6 +124,8 @@ class LineStrips {
   std::vector<std::uint32_t> place_of_;  // per point, of this frame's; valid where places_ agrees
   float taper_px_ = 0;
   float largest_factor_ = 1;
+  LineStyle::Follow follow_;
+  std::vector<std::uint32_t> wanted_;
   float largest_push_squared_ = 1;
   // This frame's, kept for their memory.
   std::vector<Place> places_;

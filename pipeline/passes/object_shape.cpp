@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
@@ -94,8 +95,64 @@ void ObjectShape::collect_vertices(const mesh::Mesh& mesh, const mesh::Topology&
   }
 }
 
+void ObjectShape::animate(const mesh::Mesh& mesh, mesh::Rig rig, const mesh::Playback& playback) {
+  const mesh::Topology topology = mesh::topology(mesh);
+  moving_.emplace(mesh, topology, std::move(rig), playback);
+  welded_ = mesh.welded;
+  faces_ = topology.faces;
+  levels_.emplace(mesh::Mesh{});
+  made_levels_.clear();
+  strips_.emplace(mesh, topology, two_sided_, true);
+  // An outline normal may come to lie along any axis.
+  const glm::dmat3 object_from_world(object_from_world_);
+  double squares = 0;
+  for (int axis = 0; axis < 3; ++axis) squares += glm::dot(object_from_world[axis], object_from_world[axis]);
+  push_m_ = 1 / std::sqrt(squares);
+  // Where the object is scaled evenly, what it is pushed by in its own coordinates are the outline normals themselves.
+  const glm::dmat3 product = glm::transpose(object_from_world) * object_from_world * (3 / squares);
+  evenly_scaled_ = true;
+  for (int i = 0; i < 9; ++i) {
+    constexpr double rounding = 1e-9;
+    evenly_scaled_ = evenly_scaled_ && std::abs(product[i / 3][i % 3] - (i % 4 == 0 ? 1 : 0)) < rounding;
+  }
+  if (evenly_scaled_) push_m_ *= std::sqrt(3.0);
+  follow();
+}
+
+// Brings everything that is kept of the mesh to where it has moved.
+void ObjectShape::follow() {
+  ++moves_made_;
+  const mesh::Skin& skin = moving_->skin();
+  const std::span<const glm::vec3> points = skin.points(), normals = skin.normals();
+  const std::span<const glm::vec3> outline_normals = skin.outline_normals();
+  for (std::size_t p = 0; p < points.size(); ++p) {
+    x_[p] = points[p].x;
+    y_[p] = points[p].y;
+    z_[p] = points[p].z;
+  }
+  centre_ = glm::dvec3(world_from_object_ * glm::dvec4(mesh::bounding_box(points).centre(), 1.0));
+  const glm::mat3 object_from_world(glm::dmat3(object_from_world_) * push_m_);
+  const auto push = [&](const glm::vec3& outline_normal) {
+    if (evenly_scaled_) return outline_normal;
+    const glm::vec3 outwards = world_from_normal_ * outline_normal;
+    const float squared = glm::dot(outwards, outwards);
+    return object_from_world * outwards * (squared > 0 ? 1.0f / std::sqrt(squared) : 0.0f);
+  };
+  for (std::size_t v = 0; v < vertices_.size(); ++v) {
+    const std::uint32_t p = welded_[v];
+    ShapeVertex& out = vertices_[v];
+    out.position = points[p];
+    out.normal = snorm(normals[v]);
+    out.outline_normal = snorm(push(outline_normals[p]));
+  }
+  whole_->move(faces_, points);
+  borders_->move(vertices_);
+  intersections_->move(points, outline_normals, vertices_);
+}
+
 const Look& ObjectShape::look(const View& view, const PixelRect& picture) {
   look_ = {};
+  if (moving_ && moving_->move_to(view.time_s)) follow();
   const glm::mat4 to_pixels = pixels_from_object(view, world_from_object_);
   find_bounds(to_pixels, picture);
   if (!look_.visible) return look_;
@@ -123,6 +180,7 @@ const Look& ObjectShape::look(const View& view, const PixelRect& picture) {
   look_.strip_indices = strips_->indices();
   look_.strip_runs = strips_->runs();
   if (asked_for_lines_) {
+    if (moving_) lines_->find_factors(*strips_, moving_->skin().points(), moving_->skin().outline_normals());
     lines_->collect(*strips_, vertices_, to_pixels, view.camera);
     look_.line_vertices = lines_->vertices();
     look_.line_indices = lines_->indices();

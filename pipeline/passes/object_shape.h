@@ -13,6 +13,7 @@
 #include "mesh/contour.h"
 #include "mesh/levels.h"
 #include "mesh/mesh.h"
+#include "mesh/moving_mesh.h"
 #include "mesh/topology.h"
 #include "pipeline/passes/border_strips.h"
 #include "pipeline/passes/contour_strips.h"
@@ -67,13 +68,18 @@ struct Look {
 /// runs. No GL.
 ///
 /// The contour is always the whole mesh's. The surface inside it comes from the coarsest level of detail that lies
-/// within a pixel of the whole mesh at the object's nearest point, so its cost follows its size in the picture.
+/// within a pixel of the whole mesh at the object's nearest point, so its cost follows its size in the picture. Only
+/// what moves is always drawn whole: a level of its rest pose may be wrong in others, and light moves over it.
 class ObjectShape {
  public:
   /// `world_from_object` may scale (also unevenly) and mirror. `uneven` says per triangle whether its colour changes
   /// over it (1), so that levels of detail must keep it; if empty, all may be simplified. About 0.5 microseconds a
   /// triangle.
   ObjectShape(const mesh::Mesh& mesh, const glm::dmat4& world_from_object, std::span<const std::uint8_t> uneven = {});
+
+  /// The object plays an animation of its mesh from now on, by the clock of the views it is looked at through.
+  /// Precondition: `rig` is the mesh's, and has that animation; passes have not asked for anything yet.
+  void animate(const mesh::Mesh& mesh, mesh::Rig rig, const mesh::Playback& playback);
 
   /// About 0.3 ms for 23,000 triangles, and 15 ms when a level of detail is needed for the first time. Allocates
   /// nothing once warm.
@@ -87,6 +93,9 @@ class ObjectShape {
   float largest_line_factor() const { return lines_->largest_factor(); }
 
   std::span<const ShapeVertex> vertices() const { return vertices_; }
+  bool moves() const { return moving_.has_value(); }
+  /// How often it has moved so far: what was made of its vertices is of that count.
+  std::uint64_t moves_made() const { return moves_made_; }
   /// Of the borders between materials; empty if there are none.
   std::span<const BorderVertex> border_vertices() const { return borders_->vertices(); }
   bool intersects_itself() const { return !intersections_->empty(); }
@@ -100,6 +109,7 @@ class ObjectShape {
   double push_m() const { return push_m_; }
 
  private:
+  void follow();
   void find_bounds(const glm::mat4& pixels_from_object, const PixelRect& picture);
   mesh::ContourFinder* finder_for(const View& view);
   mesh::ContourFinder* level_finder(std::size_t level);
@@ -131,6 +141,13 @@ class ObjectShape {
   bool asked_for_lines_ = false;
   std::optional<BorderStrips> borders_;
   std::optional<IntersectionStrips> intersections_;
+
+  // Of an object that moves.
+  std::optional<mesh::MovingMesh> moving_;
+  std::vector<std::uint32_t> welded_;
+  std::vector<glm::uvec3> faces_;
+  std::uint64_t moves_made_ = 0;
+  bool evenly_scaled_ = false;
 
   RegionKnowledge known_;
   std::vector<Run> front_runs_;

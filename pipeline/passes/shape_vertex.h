@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <vector>
@@ -25,6 +26,13 @@ struct ShapeVertex {
 
 /// Numbers from -1 to 1 as the vertices hold them; the fourth is 0.
 std::array<std::int16_t, 4> snorm(const glm::dvec3& v);
+/// The same, cheaply, for what is done each frame: no call to round, as all is above 0 before it is cut.
+inline std::array<std::int16_t, 4> snorm(const glm::vec3& v) {
+  const auto code = [](float f) {
+    return static_cast<std::int16_t>(static_cast<int>(std::clamp(f, -1.0f, 1.0f) * 32767.0f + 32768.5f) - 32768);
+  };
+  return {code(v.x), code(v.y), code(v.z), 0};
+}
 /// Numbers from 0 to 1 likewise.
 std::array<std::uint8_t, 4> unorm(const glm::vec4& v);
 

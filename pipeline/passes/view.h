@@ -11,10 +11,11 @@
 
 namespace rinkaku::passes {
 
-/// What a frame's CG is seen through. Its lens distortion is not applied here but by LensMap.
+/// What a frame's CG is seen through, and when. Its lens distortion is not applied here but by LensMap.
 struct View {
   CameraModel camera;
   RigidTransform camera_from_world;
+  double time_s = 0;  ///< on the video's clock, from its first frame
   /// For a mirror's eye, which lies behind the mirror: the mirror's plane (normal, offset) in the world. Only what lies
   /// before it, where normal * point + offset > 0, is seen; the eye must lie behind.
   std::optional<glm::dvec4> mirror{};

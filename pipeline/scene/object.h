@@ -7,6 +7,7 @@
 
 #include <glm/vec3.hpp>
 
+#include "pipeline/scene/animation.h"
 #include "pipeline/scene/fluffy.h"
 #include "pipeline/scene/outline.h"
 #include "pipeline/scene/regions.h"
@@ -29,7 +30,8 @@ struct ObjectScene {
   enum class Anchor { Base, Origin } anchor = Anchor::Base;
   double crease_deg = 60;                       ///< edges sharper than this are shaded hard
   std::optional<std::array<double, 3>> colour;  ///< sRGB; replaces the materials' base colours
-  std::optional<ToonScene> toon;                ///< empty: flat colour, unlit
+  std::optional<AnimationScene> animation;
+  std::optional<ToonScene> toon;  ///< empty: flat colour, unlit
   std::optional<OutlineScene> outline;
   std::optional<FluffyScene> fluffy;
   /// The model of a filmed thing: not drawn, but CG behind it is hidden.

@@ -113,6 +113,7 @@ TEST(InspectCommand, TellsSkinsAndClipsOfARealModel) {
   const test::ShotFolder folder;
   const auto found = test::json_of(test::run_rinkaku(folder, "inspect --json '" + fox.string() + "'").out);
   EXPECT_EQ(found.at("skins"), 1);
+  EXPECT_EQ(found.at("skin_names").size(), 1u);
   EXPECT_EQ(found.at("bones"), 24);
   EXPECT_EQ(found.at("clips").size(), 3u);
 }

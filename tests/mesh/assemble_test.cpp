@@ -103,7 +103,7 @@ TEST(Assemble, BrokenTrianglesAreDroppedAndCounted) {
   const float inf = std::numeric_limits<float>::infinity();
   soup.positions.insert(soup.positions.end(), {{nan, 0, 0}, {0, -inf, 0}, {0, 0, -0.0f}, {5, 5, 5}});
   soup.triangles.insert(soup.triangles.end(), {{0, 1, 4}, {0, 1, 5}, {0, 1, 99}, {0, 6, 1}, {2, 2, 1}});
-  const auto [mesh, dropped] = assemble(one_part(std::move(soup)), 60);
+  const auto [mesh, rig, dropped] = assemble(one_part(std::move(soup)), 60);
   EXPECT_EQ(mesh.triangles.size(), 2u);
   EXPECT_EQ(dropped.non_finite, 2u);
   EXPECT_EQ(dropped.bad_index, 1u);

@@ -2,7 +2,7 @@
 
 #include <random>
 
-#include "tests/mesh/shapes.h"
+#include "tests/mesh/rigs.h"
 
 namespace rinkaku::mesh {
 namespace {
@@ -14,7 +14,13 @@ Imported sample() {
   soup.materials[0].name = "paint";
   soup.materials[0].texture = 0;
   soup.textures.push_back({2, 1, {1, 2, 3, 4, 5, 6, 7, 8}});
-  imported.mesh = assemble(std::move(soup), 60).mesh;
+  soup.rig.morphs.push_back({"smile", 0.5f, {1, 2}, {{1, 0, 0}, {0, 1, 0}}});
+  test::Rigged rigged = test::on_one_node(std::move(soup));
+  imported.mesh = std::move(rigged.mesh);
+  imported.rig = std::move(rigged.rig);
+  imported.rig.animations.push_back(test::still(0, {1, 2, 3}, glm::quat(0, 1, 0, 0), glm::vec3(2)));
+  imported.rig.animations[0].morph_tracks.push_back({0, 1, {0, 1}, {0.25f, 0.75f}});
+  imported.summary.skin_names = {"body"};
   imported.summary.format = "OBJ";
   imported.summary.clips = {{"walk", 1.5}};
   imported.summary.warnings = {"texture a: not found"};
@@ -37,8 +43,59 @@ TEST(ImportMessage, ArrivesAsSent) {
   EXPECT_EQ(got.summary.format, "OBJ");
   EXPECT_EQ(got.summary.clips.at(0).name, "walk");
   EXPECT_EQ(got.summary.clips.at(0).duration_s, 1.5);
+  EXPECT_EQ(got.summary.skin_names, sent.summary.skin_names);
   EXPECT_EQ(got.summary.warnings, sent.summary.warnings);
   EXPECT_EQ(got.summary.dropped_lines, 3u);
+}
+
+TEST(ImportMessage, RigArrivesAsSent) {
+  const Rig sent = sample().rig;
+  const auto message = decode(encode(sample()));
+  ASSERT_TRUE(message && message->imported);
+  const Rig& got = message->imported->rig;
+  EXPECT_EQ(got.nodes.at(0).name, "root");
+  EXPECT_EQ(got.bind_points, sent.bind_points);
+  EXPECT_EQ(got.first_influence, sent.first_influence);
+  ASSERT_EQ(got.influences.size(), sent.influences.size());
+  EXPECT_EQ(got.influences.back().weight, 1.0f);
+  EXPECT_EQ(got.morphs.at(0).name, "smile");
+  EXPECT_EQ(got.morphs[0].rest_weight, 0.5f);
+  EXPECT_EQ(got.morphs[0].points, sent.morphs[0].points);
+  EXPECT_EQ(got.morphs[0].offsets, sent.morphs[0].offsets);
+  const Animation& animation = got.animations.at(0);
+  EXPECT_EQ(animation.name, "still");
+  EXPECT_EQ(animation.tracks.at(0).position.values, (std::vector<glm::vec3>{{1, 2, 3}}));
+  EXPECT_EQ(animation.tracks[0].rotation.values.at(0), glm::quat(0, 1, 0, 0));
+  EXPECT_EQ(animation.tracks[0].scale.times_s, std::vector<float>{0});
+  EXPECT_EQ(animation.morph_tracks.at(0).weights, (std::vector<float>{0.25f, 0.75f}));
+}
+
+TEST(ImportMessage, RigsAreChecked) {
+  const auto refused = [](auto spoil) {
+    Imported imported = sample();
+    spoil(imported.rig);
+    return !decode(encode(imported));
+  };
+  EXPECT_FALSE(refused([](Rig&) {}));
+  EXPECT_FALSE(refused([](Rig& r) { r = {}; }));
+  EXPECT_TRUE(refused([](Rig& r) { r.nodes[0].parent = 0; }));
+  EXPECT_TRUE(refused([](Rig& r) { r.nodes[0].parent_from_node[1][2] = std::nanf(""); }));
+  EXPECT_TRUE(refused([](Rig& r) { r.joints[0].node = 1; }));
+  EXPECT_TRUE(refused([](Rig& r) { r.bind_points.pop_back(); }));
+  EXPECT_TRUE(refused([](Rig& r) { r.bind_points[0].y = std::nanf(""); }));
+  EXPECT_TRUE(refused([](Rig& r) { r.first_influence[1] = 0; }));
+  EXPECT_TRUE(refused([](Rig& r) { r.first_influence.back() += 1; }));
+  EXPECT_TRUE(refused([](Rig& r) { r.influences[3].joint = 1; }));
+  EXPECT_TRUE(refused([](Rig& r) { r.influences[3].weight = std::nanf(""); }));
+  EXPECT_TRUE(refused([](Rig& r) { r.morphs[0].points[0] = 1u << 20; }));
+  EXPECT_TRUE(refused([](Rig& r) { r.morphs[0].offsets.pop_back(); }));
+  EXPECT_TRUE(refused([](Rig& r) { r.animations[0].duration_s = -1; }));
+  EXPECT_TRUE(refused([](Rig& r) { r.animations[0].tracks[0].node = 1; }));
+  EXPECT_TRUE(refused([](Rig& r) { r.animations[0].tracks[0].position = {}; }));
+  EXPECT_TRUE(refused([](Rig& r) { r.animations[0].tracks[0].scale.values.clear(); }));
+  EXPECT_TRUE(refused([](Rig& r) { r.animations[0].morph_tracks[0].times_s = {1, 0}; }));
+  EXPECT_TRUE(refused([](Rig& r) { r.animations[0].morph_tracks[0].count = 2; }));
+  EXPECT_TRUE(refused([](Rig& r) { r.animations[0].morph_tracks[0].weights.pop_back(); }));
 }
 
 TEST(ImportMessage, FailureArrivesAsSent) {
@@ -88,6 +145,9 @@ TEST(ImportMessage, RandomDamageNeverCrashes) {
     if (!message || !message->imported) continue;
     const Mesh& mesh = message->imported->mesh;
     for (const glm::uvec3& t : mesh.triangles) ASSERT_LT(std::max({t.x, t.y, t.z}), mesh.positions.size());
+    for (const Influence& each : message->imported->rig.influences) {
+      ASSERT_LT(each.joint, message->imported->rig.joints.size());
+    }
   }
 }
 

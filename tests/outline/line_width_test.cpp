@@ -1,8 +1,12 @@
 #include "outline/line_width.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <gtest/gtest.h>
+
+#include "tests/outline/allocation_count.h"
+#include "tests/outline/surfaces.h"
 
 namespace rinkaku::test {
 namespace {
@@ -111,6 +115,56 @@ TEST(LineWidth, SmoothingAveragesOverNeighbours) {
 
 TEST(LineWidth, FlatSurfacesHaveTheBaseLine) {
   expect_factors(line_width_factors(row(2), with_mean({0, 0}), 0, WidthOptions{}), {1, 1});
+}
+
+mesh::Mesh dented_torus() {
+  mesh::Mesh mesh = Torus{}.mesh(60, 40);
+  for (glm::vec3& p : mesh.positions) p.z += 0.1f * std::sin(9 * p.x) * std::cos(7 * p.y);
+  return mesh;
+}
+
+TEST(CurvatureWidths, AreThoseOfTheSurfaceAsItIs) {
+  const mesh::Topology rest = mesh::topology(Torus{}.mesh(60, 40)), dented = mesh::topology(dented_torus());
+  WidthOptions options;
+  options.sign = CurvatureSign::Convex;
+  const std::vector<float> once =
+      line_width_factors(dented, outline::curvature(dented), outline::k95(outline::curvature(rest)), options);
+  outline::CurvatureWidths widths(rest, options);
+  const std::span<const float> found = widths.at(dented.points);
+  // Sums in another order.
+  for (std::size_t p = 0; p < once.size(); ++p) EXPECT_NEAR(found[p], once[p], 1e-5) << p;
+}
+
+TEST(CurvatureWidths, AtSomePointsAreThoseOfTheWhole) {
+  const mesh::Topology rest = mesh::topology(Torus{}.mesh(60, 40)), dented = mesh::topology(dented_torus());
+  for (const CurvatureKind kind : {CurvatureKind::Mean, CurvatureKind::Gauss, CurvatureKind::Smallest}) {
+    for (const int smoothing : {0, 1, 3, 100}) {
+      WidthOptions options;
+      options.kind = kind;
+      options.smoothing = smoothing;
+      outline::CurvatureWidths whole(rest, options), some(rest, options);
+      // The second call must not be misled by what the first one left.
+      for (const mesh::Topology* surface : {&rest, &dented}) {
+        const std::span<const float> all = whole.at(surface->points);
+        std::vector<float> factors(all.size(), -1.0f);
+        const std::vector<std::uint32_t> wanted{0, 1, 2, 2, 500, 1203, 1};
+        some.at(surface->points, wanted, factors);
+        for (const std::uint32_t p : wanted) EXPECT_NEAR(factors[p], all[p], 1e-5) << smoothing;
+        EXPECT_EQ(std::count(factors.begin(), factors.end(), -1.0f), static_cast<std::ptrdiff_t>(all.size() - 5));
+      }
+    }
+  }
+}
+
+TEST(CurvatureWidths, AllocateNothingOnceWarm) {
+  const mesh::Topology rest = mesh::topology(Torus{}.mesh(60, 40));
+  outline::CurvatureWidths widths(rest, {});
+  std::vector<float> factors(rest.points.size());
+  const std::vector<std::uint32_t> wanted{0, 1, 2, 500, 1203};
+  widths.at(rest.points, wanted, factors);
+  const long before = allocations();
+  widths.at(rest.points, wanted, factors);
+  EXPECT_EQ(allocations(), before);
 }
 
 }  // namespace

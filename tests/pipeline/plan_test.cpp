@@ -61,6 +61,15 @@ TEST(Plan, EmptySceneOnlyPassesThePlateOn) {
   EXPECT_EQ(running(plan), (Names{"decode", "copy-streams", "encode"}));
 }
 
+TEST(Plan, OnlyAnimatedObjectsArePosed) {
+  Scene scene = drawn_scene();
+  EXPECT_EQ(stage(plan_of(scene), "animate").why, "no object is animated");
+  EXPECT_FALSE(plan_of(scene).runs("animate"));
+  scene.objects.back().animation.emplace();
+  EXPECT_TRUE(plan_of(scene).runs("animate"));
+  EXPECT_EQ(stage(plan_of(scene), "animate").why, "1 object played in time with the video");
+}
+
 TEST(Plan, TrackWithoutObjectsIsReadByNothing) {
   Scene scene = drawn_scene();
   scene.objects.clear();

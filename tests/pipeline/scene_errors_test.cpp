@@ -73,7 +73,8 @@ INSTANTIATE_TEST_SUITE_P(
                  "DIR/scene.toml:9:1: unknown key 'width' in outline of [[object]]; did you mean 'width_px'?"},
         BadScene{
             "NothingNear", object + "velocity = \"cow.rgn\"\n",
-            "DIR/scene.toml:8:1: unknown key 'velocity' in [[object]]; known keys are anchor, colour, crease_deg, "
+            "DIR/scene.toml:8:1: unknown key 'velocity' in [[object]]; known keys are anchor, animation, colour, "
+            "crease_deg, "
             "fluffy, height_m, holdout, mesh, name, outline, position_m, regions, rotation_deg, scale, toon and up"},
         BadScene{"TableOfALaterVersion", object + "[fog]\n",
                  "DIR/scene.toml:8:2: unknown key 'fog'; known keys are light, object, output, plate, track and water"},
@@ -276,6 +277,21 @@ INSTANTIATE_TEST_SUITE_P(
         BadScene{
             "ShadeNegative", object + "toon = { shade_colour = [0, 0, -0.1] }\n",
             "DIR/scene.toml:8:32: 'shade_colour' in toon of [[object]] must be three numbers from 0 to 1, found -0.1"},
+        BadScene{"AnimatedRegions", object + "animation = true\nregions = true\n",
+                 "DIR/scene.toml:9:11: 'regions' in [[object]] needs a mesh that stands still, but the object has "
+                 "'animation'; leave one of them out"},
+        BadScene{"AnimatedStrokes", object + "animation = true\noutline = { method = \"strokes\" }\n",
+                 "DIR/scene.toml:9:11: 'outline' in [[object]] has lines that need a mesh that stands still, but the "
+                 "object has 'animation'; take the method \"uniform\" or \"curvature\", without inner lines"},
+        BadScene{"ClipFlag", object + "animation = { clip = true }\n",
+                 "DIR/scene.toml:8:22: 'clip' in animation of [[object]] must be a clip's name or its number, counted "
+                 "from 0, found true"},
+        BadScene{"ClipBelowZero", object + "animation = { clip = -1 }\n",
+                 "DIR/scene.toml:8:22: 'clip' in animation of [[object]] must be a whole number from 0 to 1000000, "
+                 "found -1"},
+        BadScene{"AnimationText", object + "animation = \"Walk\"\n",
+                 "DIR/scene.toml:8:13: 'animation' in [[object]] must be true, false or a table { ... }, found the "
+                 "text \"Walk\""},
         BadScene{"OutlineText", object + "outline = \"yes\"\n",
                  "DIR/scene.toml:8:11: 'outline' in [[object]] must be true, false or a table { ... }, found the text "
                  "\"yes\""},

@@ -204,6 +204,27 @@ TEST(Scene, TakesLinesInMetres) {
   EXPECT_EQ(line.method, OutlineScene::Method::Uniform);
 }
 
+TEST(Scene, PlaysAnimations) {
+  const SceneFolder folder;
+  EXPECT_FALSE(folder.read(object).objects[0].animation);
+  EXPECT_FALSE(folder.read(object + "animation = false\n").objects[0].animation);
+  const AnimationScene first = *folder.read(object + "animation = true\n").objects[0].animation;
+  EXPECT_EQ(first.clip_name, "");
+  EXPECT_EQ(first.clip_index, 0);
+  EXPECT_TRUE(first.loop);
+  EXPECT_EQ(first.speed, 1);
+  const AnimationScene named =
+      *folder.read(object + "animation = { clip = \"Walk\", loop = false, start_s = 1.5, speed = -0.5 }\n")
+           .objects[0]
+           .animation;
+  EXPECT_EQ(named.clip_name, "Walk");
+  EXPECT_FALSE(named.loop);
+  EXPECT_EQ(named.start_s, 1.5);
+  EXPECT_EQ(named.speed, -0.5);
+  EXPECT_EQ(folder.read(object + "animation = { clip = 2 }\n").objects[0].animation->clip_index, 2);
+  EXPECT_TRUE(folder.read(object + "holdout = true\nanimation = true\n").objects[0].animation);
+}
+
 TEST(Scene, TakesOneScaleForAllAxes) {
   const SceneFolder folder;
   EXPECT_EQ(folder.read(object + "scale = -2\n").objects[0].scale, glm::dvec3(-2));

@@ -29,13 +29,15 @@ constexpr std::string_view feature_names[] = {"LIT",         "TEXTURED", "VERTEX
 // Whether lighting the vertices and interpolating gives the same bands as lighting each pixel. Where the normals at a
 // triangle's corners differ by an angle d, the two differ by d^2 / 8, in a triangle over which brightness changes by d:
 // at 15 degrees a band's border is displaced by 3 % of a triangle.
-bool is_fine(const mesh::Mesh& mesh) {
-  constexpr float cos_15_deg = 0.9659f;
+// Of what moves, half of that is asked for at rest, as it bends.
+bool is_fine(const mesh::Mesh& mesh, bool moves) {
+  constexpr float cos_15_deg = 0.9659f, cos_7_deg = 0.9925f;
+  const float least_cos = moves ? cos_7_deg : cos_15_deg;
   constexpr double most_coarse = 0.02;  // of all triangles
   std::size_t coarse = 0;
   for (const glm::uvec3& t : mesh.triangles) {
     const glm::vec3 &a = mesh.normals[t.x], &b = mesh.normals[t.y], &c = mesh.normals[t.z];
-    if (std::min({glm::dot(a, b), glm::dot(b, c), glm::dot(c, a)}) < cos_15_deg) ++coarse;
+    if (std::min({glm::dot(a, b), glm::dot(b, c), glm::dot(c, a)}) < least_cos) ++coarse;
   }
   return static_cast<double>(coarse) <= most_coarse * static_cast<double>(mesh.triangles.size());
 }
@@ -51,7 +53,7 @@ ToonPass::ToonPass(DrawnObject& object, const mesh::Mesh& mesh, const ToonOption
   if (!mesh.colours.empty()) common |= VertexColours;
   if (object.shape().two_sided()) common |= TwoSided;
   // Two-sided surfaces learn only in the fragment shader which side is seen.
-  if ((common & Lit) != 0 && !object.shape().two_sided() && is_fine(mesh)) common |= Fine;
+  if ((common & Lit) != 0 && !object.shape().two_sided() && is_fine(mesh, object.shape().moves())) common |= Fine;
   const bool has_borders = !object.shape().border_vertices().empty() || object.shape().intersects_itself();
   for (const mesh::Part& part : mesh.parts) {
     const mesh::Material& material = mesh.materials[part.material];
