@@ -1,7 +1,9 @@
 #include "pipeline/passes/layer_renderer.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
+#include <limits>
 
 #include <glm/matrix.hpp>
 
@@ -12,21 +14,25 @@ PixelRect grown(const PixelRect& rect, int by_px) {
   return {rect.x_px - by_px, rect.y_px - by_px, rect.width_px + 2 * by_px, rect.height_px + 2 * by_px};
 }
 
+// Clamped, what lies before the near plane isn't cut off but hides everything.
+void clamp_depth(bool on) { (on ? glEnable : glDisable)(GL_DEPTH_CLAMP); }
+
 }  // namespace
 
 LayerRenderer::LayerRenderer(std::vector<StyledObject> objects, const PixelRect& picture)
     : objects_(std::move(objects)), picture_(picture) {}
 
-DrawCall LayerRenderer::call_for(const View& view, const StyledObject& styled, const PixelRect& rect) const {
+DrawCall LayerRenderer::call_for(const View& view, const StyledObject& styled, const PixelRect& rect,
+                                double near) const {
   const glm::dmat4& world_from_object = styled.object->shape().world_from_object();
   const glm::dmat4 camera_from_object = to_matrix(view.camera_from_world) * world_from_object;
-  return {view, glm::mat4(clip_from_camera(view.camera, rect) * camera_from_object),
+  return {view, glm::mat4(clip_from_camera(view.camera, rect, near) * camera_from_object),
           glm::vec2(rect.width_px, rect.height_px),
           static_cast<float>(view.camera.fx_px * styled.object->shape().push_m())};
 }
 
-bool LayerRenderer::draw(const View& view, Layer& layer) {
-  layer.rect = {};
+// Finds what is in the picture, nearest first.
+void LayerRenderer::look(const View& view) {
   visible_.clear();
   for (StyledObject& styled : objects_) {
     const Look& look = styled.object->look(view, picture_);
@@ -38,33 +44,57 @@ bool LayerRenderer::draw(const View& view, Layer& layer) {
       leaves_colour = leaves_colour || pass->leaves_colour();
     }
     const PixelRect rect = intersection(grown(look.bounds, static_cast<int>(std::ceil(reach)) + 1), picture_);
-    if (rect.empty()) continue;
-    if (leaves_colour) layer.rect = united(layer.rect, rect);
-    visible_.push_back({&styled, look.distance_m});
+    if (!rect.empty()) visible_.push_back({&styled, &look, rect, leaves_colour, false});
+  }
+  std::stable_sort(visible_.begin(), visible_.end(),
+                   [](const Visible& a, const Visible& b) { return a.look->distance_m < b.look->distance_m; });
+}
+
+bool LayerRenderer::draw(const View& view, std::span<const double> cuts_m, std::span<Layer> layers) {
+  assert(layers.size() == cuts_m.size() + 1);
+  look(view);
+  bool drawn = false;
+  for (std::size_t i = 0; i < layers.size(); ++i) {
+    const Slice slice{i == 0 ? near_m : std::max(near_m, cuts_m[i - 1]),
+                      i < cuts_m.size() ? cuts_m[i] : std::numeric_limits<double>::infinity()};
+    drawn = draw_slice(view, slice, layers[i]) || drawn;
+  }
+  return drawn;
+}
+
+bool LayerRenderer::draw_slice(const View& view, const Slice& slice, Layer& layer) {
+  layer.rect = {};
+  for (const Visible& v : visible_) {
+    if (v.leaves_colour && slice.holds(v)) layer.rect = united(layer.rect, v.rect);
   }
   if (layer.rect.empty()) return false;
-  std::stable_sort(visible_.begin(), visible_.end(),
-                   [](const Visible& a, const Visible& b) { return a.distance_m < b.distance_m; });
 
-  target_.begin(layer.rect.width_px, layer.rect.height_px);
+  // Depth is near / Z, and greater depth wins: cleared to the far cut's, it keeps out what lies behind.
+  target_.begin(layer.rect.width_px, layer.rect.height_px, slice.near_m / slice.far_m);
   glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
   glEnable(GL_DEPTH_TEST);
   glDepthFunc(GL_GEQUAL);
   glDisable(GL_CULL_FACE);  // the lists hold what is to be seen
   glDisable(GL_BLEND);
   for (Visible& v : visible_) {
-    v.styled->object->upload();
-    const DrawCall call = call_for(view, *v.styled, layer.rect);
+    if (!slice.holds(v)) continue;
+    if (!v.uploaded) v.styled->object->upload();
+    v.uploaded = true;
+    const DrawCall call = call_for(view, *v.styled, layer.rect, slice.near_m);
+    clamp_depth(!v.leaves_colour);
     for (auto& pass : v.styled->passes) pass->draw_surface(call);
   }
   glEnable(GL_BLEND);
   glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
   glDepthMask(GL_FALSE);
   for (auto v = visible_.rbegin(); v != visible_.rend(); ++v) {
-    const DrawCall call = call_for(view, *v->styled, layer.rect);
+    if (!slice.holds(*v)) continue;
+    const DrawCall call = call_for(view, *v->styled, layer.rect, slice.near_m);
+    clamp_depth(!v->leaves_colour);
     // The last pass (a line) lies behind the first (the body).
     for (auto pass = v->styled->passes.rbegin(); pass != v->styled->passes.rend(); ++pass) (*pass)->draw_edges(call);
   }
+  clamp_depth(false);
   layer.rgba.resize(static_cast<std::size_t>(layer.rect.width_px) * layer.rect.height_px * 4);
   target_.read(layer.rect.width_px, layer.rect.height_px, layer.rgba.data());
   return true;
