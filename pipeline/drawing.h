@@ -6,7 +6,7 @@
 
 #include "mesh/import.h"
 #include "pipeline/passes/layer.h"
-#include "pipeline/scene.h"
+#include "pipeline/scene/scene.h"
 
 namespace rinkaku::gl {
 class Context;

@@ -9,7 +9,7 @@
 
 #include "pipeline/line.h"
 #include "pipeline/plan.h"
-#include "pipeline/scene.h"
+#include "pipeline/scene/scene.h"
 
 namespace rinkaku::pipeline {
 

@@ -3,7 +3,7 @@
 #include <glm/mat4x4.hpp>
 
 #include "mesh/bounds.h"
-#include "pipeline/scene.h"
+#include "pipeline/scene/scene.h"
 
 namespace rinkaku::pipeline {
 

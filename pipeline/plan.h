@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "pipeline/frame/camera_model.h"
-#include "pipeline/scene.h"
+#include "pipeline/scene/scene.h"
 
 namespace rinkaku::pipeline {
 

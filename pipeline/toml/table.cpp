@@ -159,6 +159,7 @@ void Table::exclude(std::string_view key, std::string_view other) const {
                  "keep one of them");
 }
 
+const std::filesystem::path& Table::file() const { return document_->file(); }
 std::string Table::where(std::string_view key) const { return place(find(key)->at); }
 
 Error Table::wrong(std::string_view key, std::string_view expected) const {

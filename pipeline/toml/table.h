@@ -57,6 +57,8 @@ class Table {
     return *std::move(value);
   }
 
+  /// The file that it was read from.
+  const std::filesystem::path& file() const;
   /// "file:line:column" of a key's value, which must be there.
   std::string where(std::string_view key) const;
   /// "file:line:column: 'key' in [table] must be `expected`, found ...".

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "pipeline/frame/error.h"
-#include "pipeline/scene.h"
+#include "pipeline/scene/scene.h"
 #include "tests/support/test_data.h"
 
 namespace rinkaku::pipeline::test_scenes {

@@ -1,4 +1,4 @@
-#include "pipeline/scene.h"
+#include "pipeline/scene/scene.h"
 
 #include "tests/pipeline/scene_folder.h"
 

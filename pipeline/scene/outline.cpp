@@ -1,0 +1,78 @@
+#include "pipeline/scene/outline.h"
+
+#include <algorithm>
+#include <string_view>
+
+#include "pipeline/scene/values.h"
+
+namespace rinkaku::pipeline {
+namespace {
+
+using toml::Limits;
+using toml::Table;
+
+void read_width(const Table& outline, OutlineScene& scene) {
+  outline.exclude("width_px", "width_m");
+  scene.width_px = outline.number("width_px", Limits::above(0, 100)).value_or(scene.width_px);
+  scene.width_m = outline.number("width_m", Limits::above(0, 1000));
+  for (const std::string_view key : {"min_px", "max_px"}) {
+    if (outline.has(key) && !scene.width_m) {
+      throw outline.error_at(key, "goes with 'width_m'", "leave it out, or give 'width_m' in place of 'width_px'");
+    }
+  }
+  scene.min_px = outline.number("min_px", {0, 100}).value_or(scene.min_px);
+  scene.max_px = outline.number("max_px", Limits::above(0, 100)).value_or(std::max(scene.max_px, scene.min_px));
+  if (scene.max_px < scene.min_px) throw outline.error_at("max_px", "must not be below 'min_px'");
+}
+
+void read_curvature_width(const Table& outline, OutlineScene& scene) {
+  using O = OutlineScene;
+  scene.method =
+      read_choice<O::Method>(outline, "method", {{"uniform", O::Method::Uniform}, {"curvature", O::Method::Curvature}})
+          .value_or(scene.method);
+  for (const std::string_view key :
+       {"curvature", "sign", "exaggeration", "saturation", "curve", "min_factor", "smoothing"}) {
+    if (outline.has(key) && scene.method != O::Method::Curvature) {
+      throw outline.error_at(key, "goes with method = \"curvature\"", "add that, or leave it out");
+    }
+  }
+  scene.curvature = read_choice<O::Curvature>(outline, "curvature",
+                                              {{"mean", O::Curvature::Mean},
+                                               {"gauss", O::Curvature::Gauss},
+                                               {"largest", O::Curvature::Largest},
+                                               {"smallest", O::Curvature::Smallest}})
+                        .value_or(scene.curvature);
+  scene.sign = read_choice<O::Sign>(
+                   outline, "sign",
+                   {{"magnitude", O::Sign::Magnitude}, {"convex", O::Sign::Convex}, {"concave", O::Sign::Concave}})
+                   .value_or(scene.sign);
+  if (scene.method == O::Method::Curvature) scene.taper_px = 15;
+  scene.exaggeration = outline.number("exaggeration", {0, 20}).value_or(scene.exaggeration);
+  scene.saturation = outline.number("saturation", Limits::above(0, 1000)).value_or(scene.saturation);
+  scene.curve = outline.number("curve", Limits::above(0, 10)).value_or(scene.curve);
+  scene.min_factor = outline.number("min_factor", Limits::above(0, 1)).value_or(scene.min_factor);
+  scene.smoothing = static_cast<int>(outline.integer("smoothing", 0, 100).value_or(scene.smoothing));
+}
+
+}  // namespace
+
+toml::Schema outline_schema() {
+  return {{.path = "object.outline",
+           .keys = {"width_px", "width_m", "min_px", "max_px", "taper_px", "colour", "method", "curvature", "sign",
+                    "exaggeration", "saturation", "curve", "min_factor", "smoothing"}}};
+}
+
+std::optional<OutlineScene> read_outline(const Table& object) {
+  OutlineScene scene;
+  if (const auto outline = object.table_unless_flag("outline")) {
+    read_width(*outline, scene);
+    read_curvature_width(*outline, scene);
+    scene.taper_px = outline->number("taper_px", {0, 1000}).value_or(scene.taper_px);
+    scene.colour = read_colour(*outline, "colour").value_or(scene.colour);
+  } else if (!object.has("outline") || !*object.flag("outline")) {
+    return std::nullopt;
+  }
+  return scene;
+}
+
+}  // namespace rinkaku::pipeline

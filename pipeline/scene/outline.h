@@ -1,0 +1,37 @@
+#pragma once
+
+#include <array>
+#include <optional>
+
+#include "outline/width_options.h"
+#include "pipeline/toml/table.h"
+
+namespace rinkaku::pipeline {
+
+/// outline of [[object]]: its line.
+struct OutlineScene {
+  double width_px = 3;
+  std::optional<double> width_m;  ///< in place of width_px
+  double min_px = 0;              ///< for width_m
+  double max_px = 40;
+  double taper_px = 0;                             ///< 0: lines end blunt; by default 15 with the method Curvature
+  std::array<double, 3> colour{0.07, 0.05, 0.09};  ///< sRGB
+  enum class Method { Uniform, Curvature } method = Method::Uniform;
+  // For the method Curvature; see outline/width_options.h.
+  using Curvature = outline::CurvatureKind;
+  using Sign = outline::CurvatureSign;
+  Curvature curvature = Curvature::Mean;
+  Sign sign = Sign::Magnitude;
+  double exaggeration = 2;
+  double saturation = 1;
+  double curve = 1;
+  double min_factor = 0.25;
+  int smoothing = 3;
+};
+
+toml::Schema outline_schema();
+
+/// Empty if there is none, or for `outline = false`. Throws Error (Input).
+std::optional<OutlineScene> read_outline(const toml::Table& object);
+
+}  // namespace rinkaku::pipeline
