@@ -104,17 +104,19 @@ std::vector<Line::Stage*> Line::stages_of(Group group) {
 }
 
 std::int64_t Line::run(const Decode& decode, const std::function<void()>& drawn_one) {
-  const auto track = stages_of(Group::Track), draw = stages_of(Group::Draw);
+  const auto track = stages_of(Group::Track), matte = stages_of(Group::Matte), draw = stages_of(Group::Draw);
   const auto composite = stages_of(Group::Composite), encode = stages_of(Group::Encode);
-  Queue decoded(queue_frames), tracked(queue_frames), drawn(queue_frames), finished(queue_frames);
-  Queue& to_draw = track.empty() ? decoded : tracked;
+  Queue decoded(queue_frames), tracked(queue_frames), matted(queue_frames), drawn(queue_frames), finished(queue_frames);
+  Queue& to_matte = track.empty() ? decoded : tracked;
+  Queue& to_draw = matte.empty() ? to_matte : matted;
   Queue& from_draw = composite.empty() ? finished : drawn;
   std::int64_t frames = 0;
   std::exception_ptr failure;  // of any stage: exceptions travel down the queues and end here
   {
-    Threads threads({&decoded, &tracked, &drawn, &finished});
+    Threads threads({&decoded, &tracked, &matted, &drawn, &finished});
     threads.start([&] { decode_all(decode, decode_times_, decoded); });
     if (!track.empty()) threads.start([&] { hand_on(decoded, track, tracked); });
+    if (!matte.empty()) threads.start([&] { hand_on(to_matte, matte, matted); });
     if (!composite.empty()) threads.start([&] { hand_on(drawn, composite, finished); });
     threads.start([&] { failure = take_in(finished, encode, frames); });
     hand_on(to_draw, draw, from_draw, drawn_one);
@@ -128,19 +130,6 @@ std::vector<StageReport> Line::reports() const {
   std::vector<StageReport> all{{"decode", decode_times_}};
   for (const Stage& stage : stages_) all.push_back(stage.report);
   return all;
-}
-
-passes::Layer SpentLayers::take() {
-  std::lock_guard lock(mutex_);
-  if (layers_.empty()) return {};
-  passes::Layer layer = std::move(layers_.back());
-  layers_.pop_back();
-  return layer;
-}
-
-void SpentLayers::give_back(passes::Layer layer) {
-  std::lock_guard lock(mutex_);
-  layers_.push_back(std::move(layer));
 }
 
 }  // namespace rinkaku::pipeline

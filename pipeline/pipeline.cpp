@@ -5,10 +5,13 @@
 #include <utility>
 
 #include "pipeline/drawing.h"
+#include "pipeline/filmed_things.h"
 #include "pipeline/frame/error.h"
+#include "pipeline/layer_files.h"
 #include "pipeline/line.h"
 #include "pipeline/passes/composite/blend.h"
 #include "pipeline/passes/composite/lens_map.h"
+#include "pipeline/passes/composite/merge.h"
 #include "pipeline/passes/composite/straight_alpha.h"
 #include "pipeline/passes/layer_renderer.h"
 #include "pipeline/set_up.h"
@@ -29,13 +32,24 @@ std::int64_t skip_to(source::Source& source, std::int64_t first_frame, const std
 }
 
 // The frames from here on, until there are none, or the end, or `stop` says so.
-Line::Decode decoder(source::Source& source, const RenderOptions& options, const std::atomic<bool>& stop) {
+Line::Decode decoder(source::Source& source, const RenderOptions& options, const std::atomic<bool>& stop,
+                     Spent<Work>& spent) {
   return [&]() -> std::optional<Work> {
     if (stop) return std::nullopt;
     std::optional<Frame> frame = source.next();
     if (!frame || frame->number >= options.end_frame) return std::nullopt;
-    return Work{std::move(*frame), std::nullopt, {}};
+    Work work = spent.take();
+    work.frame = std::move(*frame);
+    return work;
   };
+}
+
+// The frame's layers to be drawn into, empty.
+std::span<passes::Layer> empty_layers(Work& work) {
+  work.slices.resize(work.mattes.empty() ? 0 : work.mattes.size() + 1);
+  for (passes::Layer& layer : work.slices) layer.rect = {};
+  work.layer.rect = {};
+  return work.drawn();
 }
 
 }  // namespace
@@ -61,38 +75,51 @@ RenderReport render(const Prepared& prepared, const RenderOptions& options, cons
     line.add(Group::Track, "track", [&](Work& work) { work.pose = tracker->track(work.frame); });
   }
 
+  std::optional<FilmedThings> filmed;
+  if (plan.runs("matte")) {
+    filmed.emplace(prepared, described);
+    line.add(Group::Matte, "matte", [&](Work& work) { filmed->find(work); });
+  }
+
   std::optional<passes::LensMap> lens;
   if (plan.runs("lens")) lens.emplace(*prepared.camera);
   std::optional<Drawing> drawing;
-  SpentLayers spent;
+  std::vector<double> cuts_m;
+  Spent<Work> spent;
   if (plan.runs("draw")) {
     drawing.emplace(
         make_drawing(scene, lens ? lens->pinhole_rect() : passes::PixelRect{0, 0, result.width_px, result.height_px}));
     result.notices.insert(result.notices.end(), drawing->notices.begin(), drawing->notices.end());
     line.add(Group::Draw, "draw", [&](Work& work) {
-      work.layer = spent.take();
-      work.layer.rect = {};
+      const std::span<passes::Layer> layers = empty_layers(work);
       if (!work.pose || work.pose->opacity <= 0) return;
       ++result.posed_frames;
-      drawing->renderer->draw({*prepared.camera, work.pose->camera_from_world}, work.layer);
+      cuts_m.clear();
+      for (const Matte& matte : work.mattes) cuts_m.push_back(cut_m(matte));
+      drawing->renderer->draw({*prepared.camera, work.pose->camera_from_world}, cuts_m, layers);
     });
   }
   passes::Layer distorted;
   if (lens) {
     line.add(Group::Composite, "lens", [&](Work& work) {
-      lens->distort(work.layer, distorted);
-      std::swap(work.layer, distorted);
+      for (passes::Layer& layer : work.drawn()) {
+        lens->distort(layer, distorted);
+        std::swap(layer, distorted);
+      }
     });
   }
   FramePool pool;
   passes::Blender blender;
   auto opacity = [](const Work& work) { return work.pose ? work.pose->opacity : 0.0; };
   const Output output = open_output(prepared, options, described);
-  Output layers;
+  std::optional<LayerFiles> layers;
   if (plan.runs("layers")) {
-    layers = open_layers(prepared, options, described);
-    line.add(Group::Composite, "layers", [&](Work& work) {
-      layers.sink->write(straight_alpha_frame(work.frame, work.layer, opacity(work), pool));
+    layers.emplace(prepared, options, described);
+    line.add(Group::Composite, "layers", [&](Work& work) { layers->write(work, opacity(work)); });
+  }
+  if (plan.runs("merge")) {
+    line.add(Group::Composite, "merge", [&](Work& work) {
+      passes::merge({work.slices, work.mattes, plan.runs("composite")}, work.layer);
     });
   }
   if (plan.runs("composite")) {
@@ -109,13 +136,15 @@ RenderReport render(const Prepared& prepared, const RenderOptions& options, cons
   }
   line.add(Group::Encode, "encode", [&](Work& work) {
     output.sink->write(work.frame);
-    spent.give_back(std::move(work.layer));
+    work.frame = {};
+    work.pose.reset();
+    spent.give_back(std::move(work));
   });
 
   const auto start = std::chrono::steady_clock::now();
   const std::int64_t total = frames_expected(described, options);
   const std::int64_t skipped = skip_to(*source, options.first_frame, stop);
-  result.frames = line.run(decoder(*source, options, stop), [&, done = std::int64_t{0}]() mutable {
+  result.frames = line.run(decoder(*source, options, stop, spent), [&, done = std::int64_t{0}]() mutable {
     if (progress) progress(++done, total);
   });
   result.interrupted = stop;
@@ -126,10 +155,10 @@ RenderReport render(const Prepared& prepared, const RenderOptions& options, cons
   if (plan.runs("draw") && result.frames > 0 && result.posed_frames == 0 && !result.interrupted) {
     throw no_pose_error(prepared, described, result.frames);
   }
-  for (sink::Sink* each : {output.sink.get(), layers.sink.get()}) {
-    if (each == nullptr) continue;
-    each->finish();
-    if (!each->notice().empty()) result.notices.push_back(each->notice());
+  output.sink->finish();
+  if (!output.sink->notice().empty()) result.notices.push_back(output.sink->notice());
+  if (layers) {
+    for (std::string& notice : layers->finish()) result.notices.push_back(std::move(notice));
   }
   result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   if (!source->damage().empty()) result.notices.push_back(source->damage());

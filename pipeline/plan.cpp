@@ -96,6 +96,19 @@ Verdict curvature(const Facts& f) {
   return {true, "the line's width follows the curvature of " + objects(n)};
 }
 
+Verdict matte(const Facts& f) {
+  if (f.scene.foregrounds.empty()) return {false, "the scene has no [[foreground]]"};
+  std::string names;
+  for (const ForegroundScene& each : f.scene.foregrounds) names += (names.empty() ? "" : ", ") + each.name;
+  return {true, "mattes are found of " + names};
+}
+
+Verdict merge(const Facts& f) {
+  if (f.scene.foregrounds.empty()) return {false, "the scene has no [[foreground]]"};
+  if (!f.draws()) return {false, no_object};
+  return {true, "CG goes before and behind what was filmed, by depth"};
+}
+
 Verdict draw(const Facts& f) {
   if (!f.draws()) return {false, std::string(no_object) + ": no OpenGL context is made"};
   return {true, objects(f.scene.objects.size()) + " to draw"};
@@ -142,17 +155,19 @@ const std::vector<Kind>& kinds() {
       {"decode", decode, {}},
       {"track", track, {"decode"}},
       {"smooth", smooth, {"track"}},
+      {"matte", matte, {"decode", "track"}},
       {"import", import, {}},
       {"toon", toon, {"import"}},
       {"flat", flat, {"import"}},
       {"holdout", holdout, {"import"}},
       {"curvature", curvature, {"import"}},
       {"outline", outline, {"import", "curvature"}},
-      {"draw", draw, {"decode", "track", "smooth", "toon", "flat", "holdout", "outline"}},
+      {"draw", draw, {"decode", "track", "smooth", "matte", "toon", "flat", "holdout", "outline"}},
       {"lens", lens, {"draw"}},
-      {"composite", composite, {"decode", "draw", "lens"}},
-      {"unmultiply", unmultiply, {"draw", "lens"}},
-      {"layers", layers, {"draw", "lens"}},
+      {"merge", merge, {"matte", "draw", "lens"}},
+      {"composite", composite, {"decode", "draw", "lens", "merge"}},
+      {"unmultiply", unmultiply, {"draw", "lens", "merge"}},
+      {"layers", layers, {"draw", "lens", "matte", "merge"}},
       {"copy-streams", copy_streams, {}},
       {"encode", encode, {"decode", "composite", "unmultiply", "copy-streams"}},
   };

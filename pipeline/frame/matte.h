@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -12,6 +13,7 @@ namespace rinkaku {
 /// Pixels are the plate's (with its lens distortion), rows from the top without gaps, the whole picture.
 struct Matte {
   std::int64_t frame_number = -1;  ///< the frame that it was found in
+  int thing = 0;                   ///< which of the scene's things, from 0
   int width_px = 0;
   int height_px = 0;
   PixelRect rect;                   ///< alpha is 0 outside

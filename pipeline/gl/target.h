@@ -12,7 +12,7 @@ class Target {
   Target();
 
   /// Binds the target with a viewport of width x height at its origin, cleared to nothing: colour 0, depth 0 (depth is
-  /// reversed: 1 at the near plane, 0 infinitely far).
+  /// reversed: 1 at the near plane, 0 infinitely far), or `depth`.
   void begin(int width_px, int height_px, double depth = 0);
 
   /// Copies the viewport's pixels to `rgba`: width * height * 4 bytes, the row of window y = 0 first. Waits for drawing

@@ -9,9 +9,9 @@ namespace {
 namespace fs = std::filesystem;
 
 toml::Schema scene_schema() {
-  toml::Schema schema = {{.path = "", .keys = {"plate", "track", "light", "object", "output"}}};
+  toml::Schema schema = {{.path = "", .keys = {"plate", "track", "light", "foreground", "object", "output"}}};
   for (const toml::Schema& section :
-       {plate_schema(), track_schema(), light_schema(), object_schema(), output_schema()}) {
+       {plate_schema(), track_schema(), light_schema(), foreground_schema(), object_schema(), output_schema()}) {
     schema.insert(schema.end(), section.begin(), section.end());
   }
   return schema;
@@ -29,6 +29,12 @@ Scene read(const toml::Document& document, const SceneOptions& options) {
   scene.plate = read_plate(*root.table("plate"), options.input);
   if (const auto track = root.table("track")) scene.track = read_track(*track);
   if (const auto light = root.table("light")) scene.light = read_light(*light);
+  for (const toml::Table& table : root.tables("foreground")) {
+    scene.foregrounds.push_back(read_foreground(table));
+    if (!scene.foregrounds.back().distance_m && (!scene.track || scene.plate.camera.empty())) {
+      throw table.error_at("on_ground", "needs to know where the camera is", "add [track], and 'camera' to [plate]");
+    }
+  }
   for (const toml::Table& object : root.tables("object")) {
     if (!scene.track) {
       throw object.error("[[object]] needs a camera pose", "add [track] with one of marker, board, poses, locked");

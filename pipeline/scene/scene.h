@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "pipeline/scene/foreground.h"
 #include "pipeline/scene/light.h"
 #include "pipeline/scene/object.h"
 #include "pipeline/scene/output.h"
@@ -21,6 +22,7 @@ struct Scene {
   PlateScene plate;
   std::optional<TrackScene> track;
   LightScene light;
+  std::vector<ForegroundScene> foregrounds;
   std::vector<ObjectScene> objects;
   OutputScene output;
 };
