@@ -22,9 +22,9 @@ namespace rinkaku::pipeline {
 struct Work {
   Frame frame;
   std::optional<TrackedPose> pose;
-  std::vector<Matte> mattes;           ///< of filmed things, nearest first
-  std::vector<passes::Layer> slices;   ///< CG before, between and behind the mattes; one more than they are
-  passes::Layer layer;                 ///< what is to be laid over the plate
+  std::vector<Matte> mattes;          ///< of filmed things, nearest first
+  std::vector<passes::Layer> slices;  ///< CG before, between and behind the mattes; one more than they are
+  passes::Layer layer;                ///< what is to be laid over the plate
 
   /// Where CG is drawn: the layer itself, or slices of depth where something was filmed that it can be behind.
   std::span<passes::Layer> drawn() {

@@ -18,7 +18,7 @@ struct DifferenceMatte::State {
   std::optional<Frame> clean;
   DifferenceOptions options;
   PictureReader reader, clean_reader;
-  int factor = 0;  // how much smaller the rough pictures are; 0 before the first frame
+  int factor = 0;            // how much smaller the rough pictures are; 0 before the first frame
   cv::Mat background;        // CV_32FC3, full size
   cv::Mat small_background;  // luma above black, Cb and Cr from their middle; small
   std::optional<LearntBackground> learnt;
@@ -26,11 +26,13 @@ struct DifferenceMatte::State {
   LightField light;
   RoughMask rough;
   KnownBackground known;
-  cv::Mat mask, behind, shade;
+  cv::Mat mask, near, behind, shade;
+  int next_row = 0;
 
   void begin(const Picture& picture);
   void shrink(const Picture& picture, cv::Mat& out) const;
   void find_behind(const Picture& picture, const PixelRect& rect);
+  void keep_up(const Picture& picture);
 };
 
 namespace {
@@ -86,6 +88,45 @@ void DifferenceMatte::State::find_behind(const Picture& picture, const PixelRect
   }
 }
 
+// Where the room is seen now, the background takes on what the clean plate didn't have: the video's own sharpness and
+// tones. Under the light of the clean plate, so that shadows don't stay behind. A few rows each frame.
+void DifferenceMatte::State::keep_up(const Picture& picture) {
+  constexpr int every = 4;
+  constexpr float share = 0.3f, small_share = 0.1f;
+  cv::dilate(rough.mask(), near, cv::getStructuringElement(cv::MORPH_RECT, {9, 9}));
+  // Nor where a shadow lies now.
+  for (int y = 0; y < near.rows; ++y) {
+    const float *shade_here = rough.shade().ptr<float>(y), *gain = light.gain().ptr<float>(y);
+    auto* out = near.ptr<std::uint8_t>(y);
+    for (int x = 0; x < near.cols; ++x) out[x] |= std::abs(shade_here[x] / gain[x] - 1) > 0.04f ? 255 : 0;
+  }
+  const cv::Vec3f middle(picture.black, 128, 128);
+  for (int y = next_row; y < picture.height_px(); y += every) {
+    const int small_y = std::min(y / factor, near.rows - 1);
+    const std::uint8_t* covered = near.ptr<std::uint8_t>(small_y);
+    const float* light_here = rough.shade().ptr<float>(small_y);
+    auto* out = background.ptr<cv::Vec3f>(y);
+    for (int small_x = 0; small_x < near.cols; ++small_x) {
+      if (covered[small_x] != 0) continue;
+      const float to_plate = 1 / std::max(light_here[small_x], 0.2f);
+      const int end = small_x + 1 == near.cols ? picture.width_px() : (small_x + 1) * factor;
+      for (int x = small_x * factor; x < end; ++x) {
+        out[x] += share * ((picture.ycc(x, y) - middle) * to_plate + middle - out[x]);
+      }
+    }
+  }
+  next_row = (next_row + 1) % every;
+  for (int y = 0; y < near.rows; ++y) {
+    const std::uint8_t* covered = near.ptr<std::uint8_t>(y);
+    const float* light_here = rough.shade().ptr<float>(y);
+    const auto* now = small.ptr<cv::Vec3f>(y);
+    auto* out = small_background.ptr<cv::Vec3f>(y);
+    for (int x = 0; x < near.cols; ++x) {
+      if (covered[x] == 0) out[x] += small_share * (now[x] / std::max(light_here[x], 0.2f) - out[x]);
+    }
+  }
+}
+
 void DifferenceMatte::estimate(const Frame& frame, Matte& matte) {
   State& s = *state_;
   begin_matte(frame, matte);
@@ -103,6 +144,7 @@ void DifferenceMatte::estimate(const Frame& frame, Matte& matte) {
   options.deepest_shadow = static_cast<float>(s.options.deepest_shadow);
   options.least_px = static_cast<int>(s.options.least_part * static_cast<double>(s.small.total()));
   s.rough.find(s.small, s.small_background, s.light, options);
+  if (!s.learnt) s.keep_up(picture);
   cv::resize(s.rough.mask(), s.mask, {picture.width_px(), picture.height_px()}, 0, 0, cv::INTER_LINEAR);
 
   const KnownBackground::Options edges;

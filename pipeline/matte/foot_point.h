@@ -17,7 +17,8 @@ namespace rinkaku::matte {
 /// who walks evenly isn't lagged behind.
 class FootPoint {
  public:
-  /// Along the camera's axis; empty if nothing is covered or the line of sight never meets the ground. One call a frame.
+  /// Along the camera's axis; empty if nothing is covered or the line of sight never meets the ground. One call a
+  /// frame.
   std::optional<double> distance_m(const Matte& matte, const CameraModel& camera,
                                    const RigidTransform& camera_from_world);
 

@@ -76,9 +76,13 @@ void KnownBackground::solve(const Picture& picture, const cv::Mat& rough, const 
       const cv::Vec3f way = f[x] / w[x] - b[x], gone = p[x] - b[x];
       const float length2 = way[0] * way[0] + chroma2 * (way[1] * way[1] + way[2] * way[2]);
       const float along = (way[0] * gone[0] + chroma2 * (way[1] * gone[1] + way[2] * gone[2])) / std::max(length2, 1.f);
-      const float beside = (d[x] - options.noise) / std::max(0.9f * m[x] - options.noise, 2 * options.noise);
-      const float by_colour = 0.5f * (std::clamp(along, 0.f, 1.f) + std::clamp(beside, 0.f, 1.f));
-      const float trust = std::clamp((m[x] - 3 * options.noise) / (5 * options.noise), 0.f, 1.f);
+      const float beside = (d[x] - options.noise) /
+                           std::max({0.85f * m[x] - options.noise, 0.5f * std::sqrt(length2), 2 * options.noise});
+      // Each errs towards too little: by colour where the thing is of several colours, by strength where it is faint.
+      const auto [less, more] = std::minmax({std::clamp(along, 0.f, 1.f), std::clamp(beside, 0.f, 1.f)});
+      const float by_colour = 0.35f * less + 0.65f * more;
+      const float contrast = std::max(m[x], std::sqrt(length2));
+      const float trust = std::clamp((contrast - 3 * options.noise) / (5 * options.noise), 0.f, 1.f);
       out[x] = level(255 * trust * by_colour + (1 - trust) * soft[x]);
     }
   }
@@ -86,7 +90,8 @@ void KnownBackground::solve(const Picture& picture, const cv::Mat& rough, const 
   for (int y = 0; y < mask.rows; ++y) {
     const auto *p = seen_.ptr<cv::Vec3f>(y), *b = behind.ptr<cv::Vec3f>(y);
     const auto* a = alpha.ptr<std::uint8_t>(y);
-    std::uint8_t* own = matte.own_rgb.data() + (static_cast<std::size_t>(rect.y_px + y) * matte.width_px + rect.x_px) * 3;
+    std::uint8_t* own =
+        matte.own_rgb.data() + (static_cast<std::size_t>(rect.y_px + y) * matte.width_px + rect.x_px) * 3;
     for (int x = 0; x < mask.cols; ++x) {
       if (a[x] == 0 || a[x] == 255) continue;
       const float share = static_cast<float>(a[x]) / 255;

@@ -7,7 +7,7 @@
 namespace rinkaku::matte {
 namespace {
 
-constexpr int step = 2;           // pixels to one of the means' grid
+constexpr int step = 2;                // pixels to one of the means' grid
 constexpr int reach = 9, around = 16;  // of a box, twice; in the grid, and in pixels
 
 std::uint8_t level(float value) { return static_cast<std::uint8_t>(std::clamp(value, 0.0f, 255.0f) + 0.5f); }
@@ -20,10 +20,9 @@ void blur(cv::Mat& mat) {
 
 void OwnColours::find(const Picture& picture, Matte& matte) {
   if (matte.rect.empty()) return;
-  const PixelRect rect =
-      intersection({matte.rect.x_px - around, matte.rect.y_px - around, matte.rect.width_px + 2 * around,
-                    matte.rect.height_px + 2 * around},
-                   {0, 0, matte.width_px, matte.height_px});
+  const PixelRect rect = intersection({matte.rect.x_px - around, matte.rect.y_px - around,
+                                       matte.rect.width_px + 2 * around, matte.rect.height_px + 2 * around},
+                                      {0, 0, matte.width_px, matte.height_px});
   const int columns = (rect.width_px + step - 1) / step, rows = (rect.height_px + step - 1) / step;
   own_.create(rows, columns, CV_32FC3);
   behind_.create(rows, columns, CV_32FC3);

@@ -12,6 +12,8 @@ namespace {
 // What noise, compression and rounding do to a smoothed difference of an ordinary camera's pictures, in 8-bit levels.
 constexpr float luma_noise = 6, shaded_chroma_noise = 3, texture_noise = 5;
 constexpr float most_light = 1.35f;
+// Of the threshold: what is enough beside the thing, and what a hole may have on average.
+constexpr float weak_part = 0.65f, hole_part = 0.35f;
 
 }  // namespace
 
@@ -46,8 +48,8 @@ void RoughMask::measure(const cv::Mat& picture, const cv::Mat& background, const
   const cv::Size size = picture.size();
   // What the background's brightness should be, and how much of it there is around each pixel: shadows.
   cv::multiply(background_luma_, light.gain(), expected_);
-  cv::boxFilter(luma_, light_now_, CV_32F, {5, 5});
-  cv::boxFilter(expected_, light_then_, CV_32F, {5, 5});
+  cv::boxFilter(luma_, light_now_, CV_32F, {3, 3});
+  cv::boxFilter(expected_, light_then_, CV_32F, {3, 3});
   residual_.create(size, CV_32FC3);
   texture_.create(size, CV_32F);
   shade_.create(size, CV_32F);
@@ -67,16 +69,20 @@ void RoughMask::measure(const cv::Mat& picture, const cv::Mat& background, const
     }
   }
   cv::GaussianBlur(residual_, smooth_, {3, 3}, 0);
-  cv::boxFilter(texture_, texture_, CV_32F, {5, 5});
+  cv::boxFilter(texture_, texture_, CV_32F, {3, 3});
   distance_.create(size, CV_32F);
   constexpr float luma2 = 1 / (luma_noise * luma_noise), texture2 = 1 / (texture_noise * texture_noise);
-  constexpr float shaded2 = 1 / (shaded_chroma_noise * shaded_chroma_noise);
   for (int y = 0; y < size.height; ++y) {
     const auto* r = smooth_.ptr<cv::Vec3f>(y);
-    const float* t = texture_.ptr<float>(y);
+    const float *t = texture_.ptr<float>(y), *shade = shade_.ptr<float>(y), *gain = light.gain().ptr<float>(y);
+    const float* e = expected_.ptr<float>(y);
     float* d = distance_.ptr<float>(y);
     for (int x = 0; x < size.width; ++x) {
-      d[x] = std::sqrt(luma2 * r[x][0] * r[x][0] + shaded2 * (r[x][1] * r[x][1] + r[x][2] * r[x][2]) + texture2 * t[x]);
+      // Highlights are pale: shaded, they get their colour back.
+      const float pale = shade[x] < gain[x] ? std::clamp((e[x] - 150) / 50, 0.f, 1.f) : 0;
+      const float chroma = shaded_chroma_noise + 5 * pale;
+      d[x] = std::sqrt(luma2 * r[x][0] * r[x][0] + 1 / (chroma * chroma) * (r[x][1] * r[x][1] + r[x][2] * r[x][2]) +
+                       texture2 * t[x]);
     }
   }
 }
@@ -84,7 +90,12 @@ void RoughMask::measure(const cv::Mat& picture, const cv::Mat& background, const
 void RoughMask::clean_up(const Options& options) {
   cv::Mat above = distance_ > options.threshold;
   cv::morphologyEx(above, above, cv::MORPH_OPEN, cv::getStructuringElement(cv::MORPH_RECT, {3, 3}));
-  cv::morphologyEx(above, above, cv::MORPH_CLOSE, cv::getStructuringElement(cv::MORPH_ELLIPSE, {7, 7}));
+  // Beside what is surely not background less is asked.
+  cv::Mat near, weak = distance_ > weak_part * options.threshold;
+  cv::morphologyEx(weak, weak, cv::MORPH_OPEN, cv::getStructuringElement(cv::MORPH_RECT, {3, 3}));
+  cv::dilate(above, near, cv::getStructuringElement(cv::MORPH_ELLIPSE, {17, 17}));
+  above |= weak & near;
+  cv::morphologyEx(above, above, cv::MORPH_CLOSE, cv::getStructuringElement(cv::MORPH_ELLIPSE, {3, 3}));
   const int pieces = cv::connectedComponentsWithStats(above, labels_, stats_, centres_);
   std::vector<std::uint8_t> keep(static_cast<std::size_t>(pieces), 0);
   for (int i = 1; i < pieces; ++i) {
@@ -96,11 +107,19 @@ void RoughMask::clean_up(const Options& options) {
     auto* out = mask_.ptr<std::uint8_t>(y);
     for (int x = 0; x < mask_.cols; ++x) out[x] = keep[static_cast<std::size_t>(label[x])];
   }
-  // Small holes are where the thing looks like the background by chance.
+  // Holes that are small, or not quite the background, are where the thing looks like it by chance.
   const int holes = cv::connectedComponentsWithStats(~mask_, labels_, stats_, centres_, 4);
   std::vector<std::uint8_t> fill(static_cast<std::size_t>(holes), 0);
+  std::vector<double> apart(fill.size(), 0);
+  for (int y = 0; y < mask_.rows; ++y) {
+    const int* label = labels_.ptr<int>(y);
+    const float* d = distance_.ptr<float>(y);
+    for (int x = 0; x < mask_.cols; ++x) apart[static_cast<std::size_t>(label[x])] += d[x];
+  }
   for (int i = 1; i < holes; ++i) {
-    fill[static_cast<std::size_t>(i)] = stats_.at<int>(i, cv::CC_STAT_AREA) < options.least_px / 2 ? 255 : 0;
+    const int area = stats_.at<int>(i, cv::CC_STAT_AREA);
+    const bool background = apart[static_cast<std::size_t>(i)] < hole_part * options.threshold * area;
+    fill[static_cast<std::size_t>(i)] = area < options.least_px / 8 || !background ? 255 : 0;
   }
   for (int y = 0; y < mask_.rows; ++y) {
     const int* label = labels_.ptr<int>(y);
@@ -112,7 +131,7 @@ void RoughMask::clean_up(const Options& options) {
 // Inside the mask and near it, where the thing itself disturbs it, the light is that around.
 void RoughMask::fill_shade() {
   cv::Mat near;
-  cv::dilate(mask_, near, cv::getStructuringElement(cv::MORPH_RECT, {7, 7}));
+  cv::dilate(mask_, near, cv::getStructuringElement(cv::MORPH_RECT, {3, 3}));
   near.convertTo(weight_, CV_32F, -1.0 / 255, 1 + 1e-4);
   cv::multiply(shade_, weight_, weighted_);
   cv::boxFilter(weighted_, weighted_, CV_32F, {21, 21});

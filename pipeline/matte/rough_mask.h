@@ -10,8 +10,8 @@ namespace rinkaku::matte {
 class RoughMask {
  public:
   struct Options {
-    float threshold = 2;          ///< in units of what noise does
-    float deepest_shadow = 0.45f; ///< what is left of the light
+    float threshold = 2.5f;       ///< in units of what noise does
+    float deepest_shadow = 0.6f;  ///< what is left of the light
     int least_px = 100;           ///< smaller pieces are dropped
   };
 
@@ -19,7 +19,7 @@ class RoughMask {
   /// About 40 ns a pixel.
   void find(const cv::Mat& picture, const cv::Mat& background, LightField& light, const Options& options);
 
-  const cv::Mat& mask() const { return mask_; }    ///< CV_8U, 0 or 255
+  const cv::Mat& mask() const { return mask_; }  ///< CV_8U, 0 or 255
   /// CV_32F: what the background's colours are to be multiplied by; inside the mask as it is around it.
   const cv::Mat& shade() const { return shade_; }
 

@@ -23,7 +23,7 @@ LayerRenderer::LayerRenderer(std::vector<StyledObject> objects, const PixelRect&
     : objects_(std::move(objects)), picture_(picture) {}
 
 DrawCall LayerRenderer::call_for(const View& view, const StyledObject& styled, const PixelRect& rect,
-                                double near) const {
+                                 double near) const {
   const glm::dmat4& world_from_object = styled.object->shape().world_from_object();
   const glm::dmat4 camera_from_object = to_matrix(view.camera_from_world) * world_from_object;
   return {view, glm::mat4(clip_from_camera(view.camera, rect, near) * camera_from_object),

@@ -65,9 +65,9 @@ void cut(const Matte& matte, bool own_colours, Layer& behind) {
   const PixelRect rect = intersection(matte.rect, behind.rect);
   for (int y = rect.y_px; y < rect.bottom_px(); ++y) {
     const std::size_t pixel = static_cast<std::size_t>(y) * matte.width_px + rect.x_px;
-    std::uint8_t* at = behind.rgba.data() +
-                       (static_cast<std::size_t>(y - behind.rect.y_px) * behind.rect.width_px + rect.x_px -
-                        behind.rect.x_px) * 4;
+    std::uint8_t* at =
+        behind.rgba.data() +
+        (static_cast<std::size_t>(y - behind.rect.y_px) * behind.rect.width_px + rect.x_px - behind.rect.x_px) * 4;
     row_cut(matte.alpha.data() + pixel, own_colours ? matte.own_rgb.data() + 3 * pixel : nullptr, at, rect.width_px);
   }
 }
