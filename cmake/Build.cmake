@@ -25,6 +25,15 @@ if(RINKAKU_SANITIZE)
   endif()
 endif()
 
+# Programs link this.
+add_library(rinkaku_program INTERFACE)
+target_link_libraries(rinkaku_program INTERFACE rinkaku_build)
+if(RINKAKU_SANITIZE)
+  add_library(rinkaku_sanitizer_suppressions OBJECT "${PROJECT_SOURCE_DIR}/cmake/sanitizer_suppressions.cpp")
+  target_link_libraries(rinkaku_sanitizer_suppressions PRIVATE rinkaku_build)
+  target_sources(rinkaku_program INTERFACE $<TARGET_OBJECTS:rinkaku_sanitizer_suppressions>)
+endif()
+
 # rinkaku_library(NAME SOURCES... ): a static library of this project.
 function(rinkaku_library name)
   add_library(${name} STATIC ${ARGN})

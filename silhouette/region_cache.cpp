@@ -7,6 +7,7 @@
 
 #include <xxhash.h>
 
+#include "pipeline/files/pending_file.h"
 #include "pipeline/frame/error.h"
 
 namespace rinkaku::silhouette {
@@ -87,7 +88,7 @@ std::optional<RegionFile> cached_regions(const Surface& surface, const BakeOptio
     std::error_code ignored;
     fs::create_directories(path.parent_path(), ignored);
     try {
-      save_region_file(baked->file, path);
+      files::PendingFile(path.string(), true).write(baked->file);
     } catch (const Error&) {
       // Nobody asked for the file: without one, the next run bakes again.
     }

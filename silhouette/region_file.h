@@ -73,8 +73,4 @@ class RegionFile {
   std::unique_ptr<State> state_;
 };
 
-/// Writes bytes that bake() made; the file appears under its name only when it is whole.
-/// Throws Error (Input) if the folder is missing or can't be written to, (Runtime) if writing fails.
-void save_region_file(std::span<const std::uint8_t> bytes, const std::filesystem::path& path);
-
 }  // namespace rinkaku::silhouette

@@ -7,7 +7,7 @@
 #include "apps/rinkaku/json_output.h"
 #include "apps/rinkaku/progress_bar.h"
 #include "apps/rinkaku/surface_file.h"
-#include "apps/rinkaku/whole_file.h"
+#include "pipeline/files/pending_file.h"
 #include "pipeline/frame/error.h"
 #include "silhouette/bake.h"
 #include "silhouette/region_file.h"
@@ -16,8 +16,8 @@ namespace rinkaku::app {
 
 int bake(const BakeCall& call) {
   const std::atomic<bool>& stop = interrupted();  // from here on: importing takes a while as well
-  const WholeFile checked(call.output, call.force);
-  checked.must_not_be(call.mesh);
+  files::PendingFile output(call.output, call.force);
+  output.must_not_be(call.mesh);
   const silhouette::Surface surface = read_surface(call.mesh);
   silhouette::BakeOptions options;
   options.space = silhouette::RegionLayout{call.cells, call.shells, call.inner_radii};
@@ -29,7 +29,7 @@ int bake(const BakeCall& call) {
         surface, options, [&bar](std::uint32_t done, std::uint32_t total) { bar.update(done, total); }, &stop);
   }
   if (!baked) throw runtime_failure(call.output, "interrupted: nothing was written");
-  silhouette::save_region_file(baked->file, call.output);
+  output.write(baked->file);
   const silhouette::BakeReport& report = baked->report;
   const silhouette::Treatment& treated = surface.treatment;
   if (call.json) {

@@ -7,7 +7,7 @@
 
 #include "apps/rinkaku/commands.h"
 #include "apps/rinkaku/json_output.h"
-#include "apps/rinkaku/whole_file.h"
+#include "pipeline/files/pending_file.h"
 #include "pipeline/frame/error.h"
 #include "pipeline/track/board.h"
 #include "pipeline/track/board_print.h"
@@ -49,7 +49,7 @@ int board(const BoardCall& call) {
     throw input_error(call.output, "a board is written as PDF", "give a name that ends in .pdf");
   }
   const track::PrintOptions options = page_size(call.page);
-  const WholeFile checked(call.output, call.force);
+  const files::PendingFile checked(call.output, call.force);
   const track::Board read = track::read_board(call.board);
   const track::PrintedPage page = track::print_board(read, call.output, options);
   if (call.json) {

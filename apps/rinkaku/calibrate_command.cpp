@@ -8,7 +8,7 @@
 #include "apps/rinkaku/interrupt.h"
 #include "apps/rinkaku/json_output.h"
 #include "apps/rinkaku/progress_bar.h"
-#include "apps/rinkaku/whole_file.h"
+#include "pipeline/files/pending_file.h"
 #include "pipeline/frame/error.h"
 #include "pipeline/source/source.h"
 #include "pipeline/track/board.h"
@@ -49,7 +49,7 @@ class Frames {
 }  // namespace
 
 int calibrate(const CalibrateCall& call) {
-  const WholeFile checked(call.output, call.force);
+  const files::PendingFile checked(call.output, call.force);
   const track::Board board = track::read_board(call.board);
   track::Calibration found;
   {

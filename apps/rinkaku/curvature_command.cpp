@@ -7,11 +7,11 @@
 
 #include "apps/rinkaku/commands.h"
 #include "apps/rinkaku/json_output.h"
-#include "apps/rinkaku/whole_file.h"
 #include "mesh/import.h"
 #include "mesh/topology.h"
 #include "outline/curvature.h"
 #include "outline/curvature_colours.h"
+#include "pipeline/files/pending_file.h"
 #include "pipeline/frame/error.h"
 #include "pipeline/portrait.h"
 #include "pipeline/sink/output_names.h"
@@ -46,7 +46,7 @@ void refuse_own_input(const std::string& output, const std::string& input) {
 }
 
 void check_picture(const CurvatureCall& call) {
-  const WholeFile checked(call.picture, call.force);
+  files::PendingFile checked(call.picture, call.force);
   if (!call.output.empty()) checked.must_not_be(call.output);
   refuse_own_input(call.picture, call.mesh);
   if (std::filesystem::path(call.picture).extension() != ".png" || sink::is_sequence(call.picture)) {
@@ -71,7 +71,7 @@ int curvature(const CurvatureCall& call) {
   if (call.output.empty() && call.picture.empty()) {
     throw input_error("", "nothing is to be written", "give -o FILE.csv, --picture FILE.png, or both");
   }
-  std::optional<WholeFile> table;
+  std::optional<files::PendingFile> table;
   if (!call.output.empty()) {
     table.emplace(call.output, call.force);
     refuse_own_input(call.output, call.mesh);

@@ -10,7 +10,7 @@
 #include "apps/rinkaku/grey_image.h"
 #include "apps/rinkaku/json_output.h"
 #include "apps/rinkaku/surface_file.h"
-#include "apps/rinkaku/whole_file.h"
+#include "pipeline/files/pending_file.h"
 #include "pipeline/frame/error.h"
 #include "pipeline/gl/context.h"
 #include "silhouette/peers/cluster_cones.h"
@@ -76,7 +76,7 @@ silhouette::CheckView view_of(const MatteCall& call, const glm::dvec3& eye) {
 }  // namespace
 
 int matte(const MatteCall& call) {
-  const WholeFile output(call.output, call.force);
+  files::PendingFile output(call.output, call.force);
   output.must_not_be(call.mesh);
   if (!call.regions.empty()) output.must_not_be(call.regions);
   const glm::dvec3 eye = parse_point("--eye", call.eye);

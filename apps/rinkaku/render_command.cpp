@@ -10,7 +10,7 @@
 #include "apps/rinkaku/interrupt.h"
 #include "apps/rinkaku/json_output.h"
 #include "apps/rinkaku/progress_bar.h"
-#include "apps/rinkaku/whole_file.h"
+#include "pipeline/files/pending_file.h"
 #include "pipeline/frame/error.h"
 #include "pipeline/pipeline.h"
 
@@ -83,7 +83,7 @@ int render(const RenderCall& call) {
   options.layers_folder = call.layers;
   options.overwrite = call.force;
   set_frames(call.frames, options);
-  std::optional<WholeFile> timings;
+  std::optional<files::PendingFile> timings;
   if (!call.timings.empty()) timings.emplace(call.timings, call.force);
 
   const pipeline::Prepared prepared =

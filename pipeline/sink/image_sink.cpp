@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "pipeline/frame/error.h"
+#include "pipeline/sink/output_url.h"
 
 namespace rinkaku::sink {
 
@@ -16,14 +17,14 @@ ImageSink::ImageSink(const Options& options, const Incoming& incoming, const AVC
   if (!packet_) throw runtime_failure(options_.path, "out of memory");
   if (pattern_) {
     // The folder is checked with the first file's name.
-    const PendingFile probe(pattern_->file_name(0), true);
+    const files::PendingFile probe(pattern_->file_name(0), true);
     const auto existing = ffmpeg::existing_numbers(*pattern_);
     if (!existing.empty() && !options_.overwrite) {
       throw input_error(pattern_->file_name(existing.front()), "exists already",
                         "give --force to write over it, or choose another output");
     }
   } else {
-    const PendingFile probe(options_.path, options_.overwrite, input_);
+    const files::PendingFile probe(options_.path, options_.overwrite, input_);
   }
   encoder_ = std::make_unique<Encoder>(codec, nullptr, options_, incoming);
 }
@@ -45,9 +46,9 @@ void ImageSink::drain() {
 }
 
 void ImageSink::write_file(const std::string& path, const AVPacket& packet) {
-  const PendingFile& file = pending_.emplace_back(path, true, input_);
+  const files::PendingFile& file = pending_.emplace_back(path, true, input_);
   AVIOContext* io = nullptr;
-  int code = avio_open(&io, file.url().c_str(), AVIO_FLAG_WRITE);
+  int code = avio_open(&io, output_url(file).c_str(), AVIO_FLAG_WRITE);
   if (code < 0) throw_write_error(path, code, pending_.size() == 1);
   avio_write(io, packet.data, packet.size);
   avio_flush(io);
@@ -61,7 +62,7 @@ void ImageSink::finish() {
   if (frames_ == 0) throw runtime_failure(options_.path, "no frame came, so nothing is written");
   encoder_->flush();
   drain();
-  for (PendingFile& file : pending_) file.commit();
+  for (files::PendingFile& file : pending_) file.commit();
   finished_ = true;
 }
 

@@ -6,8 +6,8 @@
 #include <string>
 
 #include "pipeline/ffmpeg/number_pattern.h"
+#include "pipeline/files/pending_file.h"
 #include "pipeline/sink/encoder.h"
-#include "pipeline/sink/pending_file.h"
 #include "pipeline/sink/sink.h"
 
 namespace rinkaku::sink {
@@ -33,7 +33,7 @@ class ImageSink final : public Sink {
   std::unique_ptr<Encoder> encoder_;
   ffmpeg::PacketPtr packet_;
   std::int64_t frames_ = 0;
-  std::deque<PendingFile> pending_;  ///< written; put in place by finish()
+  std::deque<files::PendingFile> pending_;  ///< written; put in place by finish()
   bool finished_ = false;
 };
 

@@ -11,6 +11,7 @@ extern "C" {
 
 #include "pipeline/ffmpeg/formats.h"
 #include "pipeline/frame/error.h"
+#include "pipeline/sink/output_url.h"
 #include "pipeline/sink/trial_mux.h"
 
 namespace rinkaku::sink {
@@ -46,7 +47,7 @@ VideoSink::VideoSink(const Options& options, const Incoming& incoming)
   check_rates();
   encoder_ = std::make_unique<Encoder>(*choice_.encoder, choice_.container, options_, incoming_);
   AVFormatContext* context = nullptr;
-  if (!packet_ || avformat_alloc_output_context2(&context, choice_.container, nullptr, file_.url().c_str()) < 0) {
+  if (!packet_ || avformat_alloc_output_context2(&context, choice_.container, nullptr, output_url(file_).c_str()) < 0) {
     throw runtime_failure(options_.path, "out of memory");
   }
   muxer_.reset(context);
@@ -69,7 +70,7 @@ VideoSink::VideoSink(const Options& options, const Incoming& incoming)
                           choice_.encoder->name + ": " + refused,
                       "choose another codec, or a name ending in .mkv");
   }
-  if (const int code = avio_open(&context->pb, file_.url().c_str(), AVIO_FLAG_WRITE); code < 0) {
+  if (const int code = avio_open(&context->pb, output_url(file_).c_str(), AVIO_FLAG_WRITE); code < 0) {
     throw_write_error(options_.path, code, true);
   }
 }

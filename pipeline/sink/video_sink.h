@@ -5,8 +5,8 @@
 #include <optional>
 #include <string>
 
+#include "pipeline/files/pending_file.h"
 #include "pipeline/sink/encoder.h"
-#include "pipeline/sink/pending_file.h"
 #include "pipeline/sink/sink.h"
 #include "pipeline/sink/stream_copy.h"
 
@@ -38,7 +38,7 @@ class VideoSink final : public Sink {
   Incoming incoming_;
   CodecChoice choice_;
   bool avi_ = false;
-  PendingFile file_;
+  files::PendingFile file_;
   ffmpeg::OutputPtr muxer_;
   std::unique_ptr<ffmpeg::LogListener> listener_;
   std::unique_ptr<Encoder> encoder_;

@@ -5,6 +5,7 @@
 #include "pipeline/ffmpeg/formats.h"
 #include "pipeline/ffmpeg/frames.h"
 #include "pipeline/frame/error.h"
+#include "pipeline/sink/output_url.h"
 
 namespace rinkaku::sink {
 namespace {
@@ -44,7 +45,7 @@ Y4mSink::Y4mSink(const Options& options, const Incoming& incoming)
     notice_ += (notice_.empty() ? "" : "; ") + std::string("y4m carries no times: frames are shown at an even rate");
   }
   if (!(format_.picture == incoming.format)) converter_.emplace(format_.picture);
-  if (const int code = avio_open(&io_, file_.url().c_str(), AVIO_FLAG_WRITE); code < 0)
+  if (const int code = avio_open(&io_, output_url(file_).c_str(), AVIO_FLAG_WRITE); code < 0)
     throw_write_error(path_, code, true);
 }
 

@@ -5,8 +5,8 @@
 #include <string>
 
 #include "pipeline/ffmpeg/converter.h"
+#include "pipeline/files/pending_file.h"
 #include "pipeline/sink/encoder_format.h"
-#include "pipeline/sink/pending_file.h"
 #include "pipeline/sink/sink.h"
 
 namespace rinkaku::sink {
@@ -27,7 +27,7 @@ class Y4mSink final : public Sink {
   void check(int code) const;
 
   std::string path_;
-  PendingFile file_;
+  files::PendingFile file_;
   EncoderFormat format_;
   AVRational rate_;
   AVIOContext* io_ = nullptr;

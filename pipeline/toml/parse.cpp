@@ -1,11 +1,9 @@
 #include <algorithm>
-#include <cerrno>
-#include <cstring>
-#include <fstream>
 #include <string_view>
 
 #include <toml++/toml.h>
 
+#include "pipeline/files/read_file.h"
 #include "pipeline/frame/error.h"
 #include "pipeline/toml/value.h"
 
@@ -15,21 +13,8 @@ namespace {
 constexpr std::size_t most_bytes = std::size_t{4} << 20;
 
 std::string read_text(const std::filesystem::path& file) {
-  std::error_code error;
-  const auto status = std::filesystem::status(file, error);
-  if (status.type() == std::filesystem::file_type::not_found) throw input_error(file.string(), "no such file");
-  if (std::filesystem::is_directory(status)) {
-    throw input_error(file.string(), "is a folder", "name the TOML file in it");
-  }
-  errno = 0;
-  std::ifstream in(file, std::ios::binary);
-  if (!in) throw input_error(file.string(), std::string("can't be read: ") + std::strerror(errno));
-  std::string text(most_bytes + 1, '\0');
-  in.read(text.data(), static_cast<std::streamsize>(text.size()));
-  text.resize(static_cast<std::size_t>(in.gcount()));
-  if (in.bad()) throw input_error(file.string(), "can't be read to its end");
+  std::string text = files::read_file(file, most_bytes);
   if (text.find('\0') != std::string::npos) throw input_error(file.string(), "isn't a text file, so it can't be TOML");
-  if (text.size() > most_bytes) throw input_error(file.string(), "is larger than 4 MiB, so it can't be meant");
   return text;
 }
 

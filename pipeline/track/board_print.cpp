@@ -13,9 +13,9 @@
 #include <glm/geometric.hpp>
 #include <opencv2/aruco.hpp>
 
+#include "pipeline/files/pending_file.h"
 #include "pipeline/frame/error.h"
 #include "pipeline/track/opencv_marker.h"
-#include "pipeline/track/text_file.h"
 
 namespace rinkaku::track {
 namespace {
@@ -234,7 +234,7 @@ PrintedPage print_board(const Board& board, const std::filesystem::path& file, c
       throw runtime_failure(file.string(), std::string("the page can't be drawn: ") + cairo_status_to_string(status));
     }
   }
-  write_text_file(file, pdf);
+  files::write_file(file.string(), pdf);
   return sheet;
 }
 

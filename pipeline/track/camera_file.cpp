@@ -10,9 +10,10 @@
 
 #include <opencv2/core.hpp>
 
+#include "pipeline/files/pending_file.h"
+#include "pipeline/files/read_file.h"
 #include "pipeline/frame/error.h"
 #include "pipeline/track/opencv_quiet.h"
-#include "pipeline/track/text_file.h"
 
 namespace rinkaku::track {
 namespace {
@@ -161,7 +162,7 @@ class CameraReader {
 
 CameraModel read_camera(const std::filesystem::path& file) {
   const std::string name = file.string();
-  const std::string text = read_text_file(file, most_bytes);
+  const std::string text = files::read_file(file, most_bytes);
   return with_opencv(
       [&] {
         // OpenCV reads "%YAML" only at the very start; a byte order mark or blank lines before it are harmless.
@@ -203,7 +204,7 @@ void write_camera(const std::filesystem::path& file, const CameraModel& camera,
         return storage.releaseAndGetString();
       },
       [&](const std::string& message) -> std::string { throw runtime_failure(file.string(), message); });
-  write_text_file(file, text);
+  files::write_file(file.string(), text);
 }
 
 void check_resolution(const CameraModel& camera, const std::filesystem::path& file, int width_px, int height_px) {

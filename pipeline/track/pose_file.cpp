@@ -12,9 +12,9 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
 
+#include "pipeline/files/read_file.h"
 #include "pipeline/frame/error.h"
 #include "pipeline/track/dictionary.h"
-#include "pipeline/track/text_file.h"
 
 namespace rinkaku::track {
 namespace {
@@ -248,7 +248,7 @@ std::optional<RigidTransform> PoseTable::world_from_camera(std::int64_t frame, d
 }
 
 PoseTable read_poses(const std::filesystem::path& file) {
-  const std::string text = read_text_file(file, most_bytes);
+  const std::string text = files::read_file(file, most_bytes);
   return PoseTable(PoseReader(file.string(), text).read());
 }
 

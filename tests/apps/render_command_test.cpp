@@ -152,7 +152,7 @@ TEST(RenderCommand, TimingsThatCanNotBePutInPlaceAreAnError) {
   const RenderFolder folder;
   const test::CliResult got = test::run_rinkaku(folder, "render empty.toml -o t/%04d.png --timings t");
   EXPECT_EQ(got.status, 1);
-  EXPECT_EQ(got.err.rfind("rinkaku: t: it can't be put in place", 0), 0u) << got.err;
+  EXPECT_EQ(got.err.rfind("rinkaku: t: can't be put in place", 0), 0u) << got.err;
   for (const auto& entry : fs::directory_iterator(folder.path())) {
     EXPECT_FALSE(entry.path().filename().string().starts_with(".t.")) << entry.path();
   }

@@ -323,9 +323,10 @@ TEST(SceneErrors, NamesAFileThatIsNone) {
   std::ofstream(folder / "binary.toml", std::ios::binary) << std::string("\x7f\x01\0\0", 4);
   std::ofstream(folder / "huge.toml") << std::string(5u << 20, '#');
   EXPECT_EQ(folder.message_for("none.toml"), "DIR/none.toml: no such file");
-  EXPECT_EQ(folder.message_for("sub"), "DIR/sub: is a folder; name the TOML file in it");
+  EXPECT_EQ(folder.message_for("sub"), "DIR/sub: is a folder; name a file in it");
   EXPECT_EQ(folder.message_for("binary.toml"), "DIR/binary.toml: isn't a text file, so it can't be TOML");
-  EXPECT_EQ(folder.message_for("huge.toml"), "DIR/huge.toml: is larger than 4 MiB, so it can't be meant");
+  EXPECT_EQ(folder.message_for("huge.toml"),
+            "DIR/huge.toml: is too large to be what it should be; at most 4 MiB are read");
 }
 
 TEST(SceneErrors, ReportsTheFirstUnknownKeyInTheFile) {

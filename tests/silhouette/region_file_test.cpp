@@ -165,16 +165,5 @@ TEST(RegionFile, EveryDamagedByteThatMattersIsNoticed) {
   EXPECT_LE(unnoticed, 64u) << "of " << bytes.size();
 }
 
-TEST(RegionFile, AppearsUnderItsNameOnlyWhenWhole) {
-  const test::TemporaryFolder folder;
-  const auto bytes = bake(surface_of(test::sphere(2)), with_depth())->file;
-  save_region_file(bytes, folder / "s.rgn");
-  EXPECT_EQ(RegionFile::open(folder / "s.rgn").bytes(), bytes.size());
-  EXPECT_NE(refusal([&] { save_region_file(bytes, folder / "absent" / "s.rgn"); }), "");
-  std::size_t files = 0;
-  for ([[maybe_unused]] const auto& entry : std::filesystem::directory_iterator(folder.path())) ++files;
-  EXPECT_EQ(files, 1u) << "nothing half-written lies about";
-}
-
 }  // namespace
 }  // namespace rinkaku::silhouette

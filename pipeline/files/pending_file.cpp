@@ -1,15 +1,16 @@
-#include "pipeline/sink/pending_file.h"
+#include "pipeline/files/pending_file.h"
 
+#include <cerrno>
+#include <cstdio>
 #include <filesystem>
+#include <memory>
 #include <system_error>
 
 #include <unistd.h>
 
-#include "pipeline/ffmpeg/handles.h"
-#include "pipeline/ffmpeg/log.h"
 #include "pipeline/frame/error.h"
 
-namespace rinkaku::sink {
+namespace rinkaku::files {
 namespace {
 
 namespace fs = std::filesystem;
@@ -32,18 +33,12 @@ void check_folder(const std::string& path, const fs::path& folder) {
 }  // namespace
 
 PendingFile::PendingFile(const std::string& path, bool overwrite, const std::string& input) : final_(path) {
-  if (path == "-") {
-    url_ = "pipe:1";
-    return;
-  }
+  if (path == "-") return;
   if (path.empty()) throw input_error("", "the name of the output is empty", "give a file name");
   std::error_code error;
   const auto status = fs::status(path, error);
   if (fs::is_directory(status)) throw input_error(path, "is a folder", "give a file name");
-  if (fs::exists(status) && !fs::is_regular_file(status)) {
-    url_ = "file:" + path;  // a device or pipe is never replaced
-    return;
-  }
+  if (fs::exists(status) && !fs::is_regular_file(status)) return;  // a device or pipe is never replaced
   if (fs::exists(status)) {
     if (!input.empty() && fs::equivalent(path, input, error)) {
       throw input_error(path, "is the input itself", "choose another output");
@@ -60,13 +55,20 @@ PendingFile::PendingFile(const std::string& path, bool overwrite, const std::str
   std::string name(".");
   name.append(target.filename().string()).append(".").append(std::to_string(::getpid())).append(".part");
   temporary_ = (folder / name).string();
-  url_ = "file:" + temporary_;
 }
 
 PendingFile::~PendingFile() {
   if (temporary_.empty()) return;
   std::error_code ignored;
   fs::remove(temporary_, ignored);
+}
+
+void PendingFile::must_not_be(const std::string& other) const {
+  std::error_code error;
+  const auto place = [&error](const fs::path& path) { return fs::weakly_canonical(fs::absolute(path, error), error); };
+  if (final_ != "-" && place(final_) == place(other)) {
+    throw input_error(final_, "is named twice, as two files of this call", "give two names");
+  }
 }
 
 void PendingFile::commit() {
@@ -77,14 +79,30 @@ void PendingFile::commit() {
   temporary_.clear();
 }
 
-void throw_write_error(const std::string& path, int code, bool opening) {
-  const std::string name = path == "-" ? "standard output" : path;
-  const std::string text = "can't be written: " + ffmpeg::error_text(code);
-  if (code == AVERROR(ENOSPC) || code == AVERROR(EFBIG) || code == AVERROR(EDQUOT)) {
-    throw runtime_failure(name, text, "free some space or choose another place");
+void PendingFile::write(std::string_view bytes) {
+  const bool to_stdout = final_ == "-";
+  const auto close = [](std::FILE* file) { return file == stdout ? 0 : std::fclose(file); };
+  std::unique_ptr<std::FILE, decltype(close)> file(to_stdout ? stdout : std::fopen(open_path().c_str(), "wb"), close);
+  const std::string name = to_stdout ? "standard output" : final_;
+  if (!file) {
+    throw input_error(name, "can't be written: " + std::generic_category().message(errno),
+                      "choose another output or change the permissions");
   }
-  if (opening) throw input_error(name, text, "choose another output or change the permissions");
-  throw runtime_failure(name, text);
+  bool whole = std::fwrite(bytes.data(), 1, bytes.size(), file.get()) == bytes.size();
+  whole = std::fflush(file.get()) == 0 && whole;
+  const int code = errno;
+  whole = close(file.release()) == 0 && whole;
+  if (!whole) {
+    throw runtime_failure(name, "can't be written: " + std::generic_category().message(code),
+                          "free some space or choose another place");
+  }
+  commit();
 }
 
-}  // namespace rinkaku::sink
+void PendingFile::write(std::span<const std::uint8_t> bytes) {
+  write(std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
+}
+
+void write_file(const std::string& path, std::string_view bytes) { PendingFile(path, true).write(bytes); }
+
+}  // namespace rinkaku::files

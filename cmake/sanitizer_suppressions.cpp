@@ -1,0 +1,27 @@
+// What the sanitizers report of other people's libraries, which are not built with them.
+
+#ifdef __SANITIZE_ADDRESS__
+extern "C" const char* __lsan_default_suppressions();
+extern "C" const char* __lsan_default_suppressions() {
+  return "leak:libfontconfig.so\n";  // under the printed boards' letters; keeps what it allocates to the end
+}
+#endif
+
+#ifdef __SANITIZE_THREAD__
+extern "C" const char* __tsan_default_suppressions();
+extern "C" const char* __tsan_default_suppressions() {
+  // How they synchronise their threads isn't seen.
+  return "called_from_lib:libavcodec.so\n"
+         "called_from_lib:libavformat.so\n"
+         "called_from_lib:libavutil.so\n"
+         "called_from_lib:libopencv_core.so\n"
+         "called_from_lib:libopencv_imgproc.so\n"
+         "called_from_lib:libswscale.so\n"
+         "called_from_lib:libx264.so\n"
+         "called_from_lib:swrast_dri.so\n"
+         "race:libopencv_core.so\n"
+         "race:libopencv_imgproc.so\n"
+         "race:swrast_dri.so\n"
+         "race:av_buffer_unref\n";  // the last holder of a frame lets it go, maybe an encoder's thread
+}
+#endif
