@@ -29,6 +29,9 @@ Frame clean_plate(const std::string& file, const source::Description& plate) {
 
 struct MakeEstimator {
   const source::Description& plate;
+  std::unique_ptr<matte::MatteEstimator> operator()(const matte::ChromaOptions& options) const {
+    return std::make_unique<matte::ChromaMatte>(options);
+  }
   std::unique_ptr<matte::MatteEstimator> operator()(const DifferenceMatteScene& scene) const {
     std::optional<Frame> clean;
     if (!scene.clean.empty()) clean = clean_plate(scene.clean, plate);
@@ -45,6 +48,7 @@ struct MakeEstimator {
 struct FilmedThings::Thing {
   matte::Foreground foreground;
   std::optional<double> distance_m;
+  bool on_ground;
   matte::FootPoint foot;
   double last_m = 0;  // before everything, as long as nothing is known
 };
@@ -56,7 +60,7 @@ FilmedThings::FilmedThings(const Prepared& prepared, const source::Description& 
       estimators.push_back(std::visit(MakeEstimator{described}, method));
     }
     things_.push_back(std::make_unique<Thing>(
-        Thing{matte::Foreground(std::move(estimators), scene.options), scene.distance_m, {}, 0}));
+        Thing{matte::Foreground(std::move(estimators), scene.options), scene.distance_m, scene.on_ground, {}, 0}));
   }
 }
 
@@ -69,7 +73,7 @@ void FilmedThings::find(Work& work) {
     Matte& matte = work.mattes[i];
     thing.foreground.find(work.frame, matte);
     matte.thing = static_cast<int>(i);
-    if (!thing.distance_m && work.pose) {
+    if (thing.on_ground && work.pose) {
       const auto found = thing.foot.distance_m(matte, *camera_, work.pose->camera_from_world);
       if (found) thing.last_m = *found;
     }

@@ -18,6 +18,7 @@
 #include "pipeline/sink/sink.h"
 #include "pipeline/source/source.h"
 #include "pipeline/track/tracker.h"
+#include "pipeline/world.h"
 
 namespace rinkaku::pipeline {
 namespace {
@@ -110,7 +111,9 @@ RenderReport render(const Prepared& prepared, const RenderOptions& options, cons
   }
   FramePool pool;
   passes::Blender blender;
-  auto opacity = [](const Work& work) { return work.pose ? work.pose->opacity : 0.0; };
+  std::optional<World> world;
+  // A world in the plate's place doesn't fade with what was drawn into it.
+  auto opacity = [&world](const Work& work) { return world ? 1.0 : work.pose ? work.pose->opacity : 0.0; };
   const Output output = open_output(prepared, options, described);
   std::optional<LayerFiles> layers;
   if (plan.runs("layers")) {
@@ -118,7 +121,13 @@ RenderReport render(const Prepared& prepared, const RenderOptions& options, cons
     line.add(Group::Composite, "layers", [&](Work& work) { layers->write(work, opacity(work)); });
   }
   if (plan.runs("merge")) {
+    if (plan.runs("background")) world.emplace(*scene.background, described);
     line.add(Group::Composite, "merge", [&](Work& work) {
+      if (world) {
+        if (!drawing) empty_layers(work);
+        for (passes::Layer& layer : work.slices) passes::fade(layer, work.pose ? work.pose->opacity : 0.0);
+        passes::put_behind(world->next(), work.slices.back(), distorted);
+      }
       passes::merge({work.slices, work.mattes, plan.runs("composite")}, work.layer);
     });
   }

@@ -13,6 +13,7 @@ struct Facts {
 
   bool draws() const { return !scene.objects.empty(); }
   bool composites() const { return scene.output.content == OutputScene::Content::Composite; }
+  bool replaces_plate() const { return composites() && scene.background.has_value(); }
   template <typename Wanted>
   std::size_t count(Wanted wanted) const {
     return static_cast<std::size_t>(std::count_if(scene.objects.begin(), scene.objects.end(), wanted));
@@ -103,10 +104,18 @@ Verdict matte(const Facts& f) {
   return {true, "mattes are found of " + names};
 }
 
+Verdict background(const Facts& f) {
+  if (!f.scene.background) return {false, "the scene has no [background]"};
+  if (!f.composites()) return {false, "the output is the CG alone"};
+  return {true, f.scene.background->colour ? "a colour stands in the plate's place"
+                                           : "the plate's place is taken by " + f.scene.background->input};
+}
+
 Verdict merge(const Facts& f) {
   if (f.scene.foregrounds.empty()) return {false, "the scene has no [[foreground]]"};
-  if (!f.draws()) return {false, no_object};
-  return {true, "CG goes before and behind what was filmed, by depth"};
+  if (!f.draws() && !f.replaces_plate()) return {false, no_object};
+  return {true, f.draws() ? "CG goes before and behind what was filmed, by depth"
+                          : "what was filmed goes before the background"};
 }
 
 Verdict draw(const Facts& f) {
@@ -122,6 +131,7 @@ Verdict lens(const Facts& f) {
 
 Verdict composite(const Facts& f) {
   if (!f.composites()) return {false, "the output is the CG alone"};
+  if (f.replaces_plate()) return {true, "background and CG are laid over the plate's own planes"};
   if (!f.draws()) return {false, "nothing is drawn: the plate goes to the sink untouched"};
   return {true, "CG is laid over the plate's own planes"};
 }
@@ -164,7 +174,8 @@ const std::vector<Kind>& kinds() {
       {"outline", outline, {"import", "curvature"}},
       {"draw", draw, {"decode", "track", "smooth", "matte", "toon", "flat", "holdout", "outline"}},
       {"lens", lens, {"draw"}},
-      {"merge", merge, {"matte", "draw", "lens"}},
+      {"background", background, {}},
+      {"merge", merge, {"matte", "draw", "lens", "background"}},
       {"composite", composite, {"decode", "draw", "lens", "merge"}},
       {"unmultiply", unmultiply, {"draw", "lens", "merge"}},
       {"layers", layers, {"draw", "lens", "matte", "merge"}},

@@ -30,9 +30,9 @@ void KnownBackground::solve(const Picture& picture, const cv::Mat& rough, const 
   read_ycc(picture, rect, seen_);
   const int side = 2 * options.band_px + 1;
   const cv::Mat disk = cv::getStructuringElement(cv::MORPH_ELLIPSE, {side, side});
-  cv::threshold(mask, outside_, 127, 255, cv::THRESH_BINARY);
-  cv::erode(outside_, core_, disk);
-  cv::dilate(outside_, outside_, disk);
+  cv::threshold(mask, reached_, 127, 255, cv::THRESH_BINARY);
+  cv::erode(reached_, core_, disk);
+  cv::dilate(reached_, reached_, disk);
 
   // The thing's colour near each pixel: a mean over the core around, weighted by nearness.
   core_.convertTo(weight_, CV_32F, 1.0 / 255, 1e-5);
@@ -65,11 +65,11 @@ void KnownBackground::solve(const Picture& picture, const cv::Mat& rough, const 
   for (int y = 0; y < mask.rows; ++y) {
     const auto *p = seen_.ptr<cv::Vec3f>(y), *b = behind.ptr<cv::Vec3f>(y), *f = own_.ptr<cv::Vec3f>(y);
     const float *w = weight_blurred_.ptr<float>(y), *d = difference_.ptr<float>(y), *m = strongest_.ptr<float>(y);
-    const auto *core = core_.ptr<std::uint8_t>(y), *outside = outside_.ptr<std::uint8_t>(y);
+    const auto *core = core_.ptr<std::uint8_t>(y), *reached = reached_.ptr<std::uint8_t>(y);
     const std::uint8_t* soft = soft_.ptr<std::uint8_t>(y);
     auto* out = alpha.ptr<std::uint8_t>(y);
     for (int x = 0; x < mask.cols; ++x) {
-      if (core[x] != 0 || outside[x] == 0) {
+      if (core[x] != 0 || reached[x] == 0) {
         out[x] = core[x];
         continue;
       }

@@ -25,8 +25,11 @@ class KnownBackground {
   /// Sets alpha and own_rgb inside matte.rect. About 60 ns a pixel of the rectangle.
   void solve(const Picture& picture, const cv::Mat& rough, const cv::Mat& behind, const Options& options, Matte& matte);
 
+  /// CV_8U, of the last rectangle: 0 where it is too far outside of the rough border to be looked at.
+  const cv::Mat& reached() const { return reached_; }
+
  private:
-  cv::Mat seen_, core_, outside_, weight_, own_, weight_blurred_, difference_, strongest_, soft_;
+  cv::Mat seen_, core_, reached_, weight_, own_, weight_blurred_, difference_, strongest_, soft_;
 };
 
 }  // namespace rinkaku::matte

@@ -12,7 +12,7 @@ namespace {
 using toml::Limits;
 using toml::Table;
 
-constexpr std::string_view all_methods = "\"difference\" or \"file\"";
+constexpr std::string_view all_methods = "\"chroma\", \"difference\" or \"file\"";
 
 // "difference", or several: ["difference", "file"].
 std::vector<std::string> read_methods(const Table& foreground) {
@@ -33,6 +33,20 @@ std::vector<std::string> read_methods(const Table& foreground) {
     names.push_back(*foreground.text("method"));
   }
   return names;
+}
+
+matte::ChromaOptions read_chroma(const std::optional<Table>& table) {
+  matte::ChromaOptions options;
+  if (!table) return options;
+  options.key = read_colour(*table, "key");
+  options.clip_low = table->number("clip_low", {0, 1}).value_or(options.clip_low);
+  options.clip_high = table->number("clip_high", {0, 1}).value_or(options.clip_high);
+  if (options.clip_low + 0.01 > options.clip_high) {
+    throw table->error("'clip_low' must be below 'clip_high'", "give e.g. clip_low = 0.1, clip_high = 0.9");
+  }
+  options.hue_deg = table->number("hue_deg", {5, 85}).value_or(options.hue_deg);
+  options.despill = table->number("despill", {0, 1}).value_or(options.despill);
+  return options;
 }
 
 DifferenceMatteScene read_difference(const std::optional<Table>& table) {
@@ -56,6 +70,7 @@ FileMatteScene read_file(const Table& foreground) {
 }
 
 ForegroundScene::Method read_method(const Table& foreground, const std::string& name) {
+  if (name == "chroma") return read_chroma(foreground.table("chroma"));
   if (name == "difference") return read_difference(foreground.table("difference"));
   if (name == "file") return read_file(foreground);
   throw foreground.wrong("method", all_methods);
@@ -77,11 +92,13 @@ PixelRect read_within(const Table& foreground) {
 }  // namespace
 
 toml::Schema foreground_schema() {
-  return {{.path = "foreground",
-           .keys = {"name", "method", "combine", "difference", "file", "distance_m", "on_ground", "within_px"},
-           .repeated = true},
-          {.path = "foreground.difference", .keys = {"clean", "threshold", "deepest_shadow", "memory_frames"}},
-          {.path = "foreground.file", .keys = {"video", "images"}}};
+  return {
+      {.path = "foreground",
+       .keys = {"name", "method", "combine", "chroma", "difference", "file", "distance_m", "on_ground", "within_px"},
+       .repeated = true},
+      {.path = "foreground.chroma", .keys = {"key", "clip_low", "clip_high", "hue_deg", "despill"}},
+      {.path = "foreground.difference", .keys = {"clean", "threshold", "deepest_shadow", "memory_frames"}},
+      {.path = "foreground.file", .keys = {"video", "images"}}};
 }
 
 ForegroundScene read_foreground(const Table& foreground) {
@@ -90,7 +107,7 @@ ForegroundScene read_foreground(const Table& foreground) {
   scene.name = foreground.text("name").value_or("foreground");
   const std::vector<std::string> methods = read_methods(foreground);
   for (const std::string& name : methods) scene.methods.push_back(read_method(foreground, name));
-  for (const std::string_view table : {"difference", "file"}) {
+  for (const std::string_view table : {"chroma", "difference", "file"}) {
     if (foreground.has(table) && std::find(methods.begin(), methods.end(), table) == methods.end()) {
       throw foreground.error_at(table, "isn't among the methods", "leave it out, or add it to 'method'");
     }
@@ -106,10 +123,7 @@ ForegroundScene read_foreground(const Table& foreground) {
   if (foreground.has("within_px")) scene.options.within = read_within(foreground);
   foreground.exclude("distance_m", "on_ground");
   scene.distance_m = foreground.number("distance_m", Limits::above(0, 1e6));
-  if (!scene.distance_m && !foreground.flag("on_ground").value_or(false)) {
-    throw foreground.error("a [[foreground]] needs to know how far away it is",
-                           "add distance_m = METRES, or on_ground = true if it stands on the world's z = 0");
-  }
+  scene.on_ground = foreground.flag("on_ground").value_or(false);
   return scene;
 }
 

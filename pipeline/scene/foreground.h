@@ -7,6 +7,7 @@
 #include <variant>
 #include <vector>
 
+#include "pipeline/matte/chroma.h"
 #include "pipeline/matte/difference.h"
 #include "pipeline/matte/foreground.h"
 #include "pipeline/toml/table.h"
@@ -25,11 +26,12 @@ struct FileMatteScene {
 /// [[foreground]]: a filmed thing that CG can be behind.
 struct ForegroundScene {
   std::string name;
-  using Method = std::variant<DifferenceMatteScene, FileMatteScene>;
+  using Method = std::variant<matte::ChromaOptions, DifferenceMatteScene, FileMatteScene>;
   std::vector<Method> methods;
   matte::ForegroundOptions options;
-  /// How far away it is, along the camera's axis; empty: it stands on the ground.
+  /// How far away it is, along the camera's axis; empty: it stands on the ground, or nothing depends on it.
   std::optional<double> distance_m;
+  bool on_ground = false;
 };
 
 toml::Schema foreground_schema();

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "pipeline/scene/background.h"
 #include "pipeline/scene/foreground.h"
 #include "pipeline/scene/light.h"
 #include "pipeline/scene/object.h"
@@ -22,6 +23,7 @@ struct Scene {
   PlateScene plate;
   std::optional<TrackScene> track;
   LightScene light;
+  std::optional<BackgroundScene> background;  ///< in the plate's place
   std::vector<ForegroundScene> foregrounds;
   std::vector<ObjectScene> objects;
   OutputScene output;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 #include <cstring>
 #include <utility>
 
@@ -103,19 +104,17 @@ void merge(const MergeInput& input, Layer& out) {
   }
 }
 
-void lay_over(const Layer& top, Layer& under, Layer& scratch) {
-  if (top.rect.empty()) return;
-  if (under.rect.empty()) {
-    under = top;
-    return;
-  }
-  const PixelRect both = united(top.rect, under.rect);
-  if (!(both == under.rect)) {
-    clear(scratch, both);
-    over(under, scratch);
-    std::swap(scratch, under);
-  }
-  over(top, under);
+void put_behind(const Layer& world, Layer& layer, Layer& scratch) {
+  scratch.rect = world.rect;
+  scratch.rgba.assign(world.rgba.begin(), world.rgba.end());
+  over(layer, scratch);
+  std::swap(layer, scratch);
+}
+
+void fade(Layer& layer, double opacity) {
+  if (opacity >= 1 || layer.rect.empty()) return;
+  const int share = static_cast<int>(std::lround(std::max(opacity, 0.0) * 255));
+  for (std::uint8_t& value : layer.rgba) value = static_cast<std::uint8_t>(over_255(value * share));
 }
 
 }  // namespace rinkaku::passes

@@ -27,7 +27,10 @@ struct MergeInput {
 /// Cost: a few passes over that rectangle, about 1 ns a pixel and layer.
 void merge(const MergeInput& input, Layer& out);
 
-/// Premultiplied `top` over what `under` holds; under's rectangle grows to hold both.
-void lay_over(const Layer& top, Layer& under, Layer& scratch);
+/// Puts the opaque `world`, which covers all of `layer`, behind it.
+void put_behind(const Layer& world, Layer& layer, Layer& scratch);
+
+/// Multiplies a layer by an opacity of 0 to 1.
+void fade(Layer& layer, double opacity);
 
 }  // namespace rinkaku::passes
