@@ -42,9 +42,6 @@ struct Entry {
 /// than 4 MiB, or isn't TOML (then with line and column).
 Value parse_file(const std::filesystem::path& file);
 
-/// How a message shows a text of a file: control characters as '?', cut after 60 bytes.
-std::string quotable(std::string_view text);
-
 /// How a message shows a value: `the text "3 px"`, `-0.2`, `a table`, `an array of 2`.
 std::string described(const Value& value);
 
