@@ -143,7 +143,7 @@ Verdict unmultiply(const Facts& f) {
 
 Verdict layers(const Facts& f) {
   if (!f.request.layers) return {false, "no --layers was given"};
-  return {true, "the CG layer of each frame is written as PNG"};
+  return {true, "each layer of each frame is written as PNG"};
 }
 
 Verdict copy_streams(const Facts& f) {
