@@ -14,12 +14,17 @@ find_package(OpenMesh REQUIRED)
 pkg_check_modules(FFMPEG REQUIRED IMPORTED_TARGET libavformat libavcodec libavutil libswscale)
 pkg_check_modules(EPOXY REQUIRED IMPORTED_TARGET epoxy)
 pkg_check_modules(EGL REQUIRED IMPORTED_TARGET egl)
+pkg_check_modules(GLFW REQUIRED IMPORTED_TARGET glfw3)
+pkg_check_modules(IMGUI REQUIRED IMPORTED_TARGET imgui)
 pkg_check_modules(ASSIMP REQUIRED IMPORTED_TARGET assimp)
 pkg_check_modules(CAIRO REQUIRED IMPORTED_TARGET cairo)
 pkg_check_modules(XXHASH REQUIRED IMPORTED_TARGET libxxhash)
 
+find_library(LIBYUV yuv REQUIRED)
+
 # Their headers are not ours to warn about.
-foreach(target PkgConfig::FFMPEG PkgConfig::EPOXY PkgConfig::EGL PkgConfig::ASSIMP PkgConfig::CAIRO)
+foreach(target PkgConfig::FFMPEG PkgConfig::EPOXY PkgConfig::EGL PkgConfig::ASSIMP PkgConfig::CAIRO PkgConfig::GLFW
+    PkgConfig::IMGUI)
   get_target_property(dirs ${target} INTERFACE_INCLUDE_DIRECTORIES)
   if(dirs)
     set_target_properties(${target} PROPERTIES INTERFACE_SYSTEM_INCLUDE_DIRECTORIES "${dirs}")

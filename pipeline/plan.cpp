@@ -75,6 +75,23 @@ Verdict flat(const Facts& f) {
   return {true, objects(n) + " drawn flat (toon = false)"};
 }
 
+Verdict regions(const Facts& f) {
+  if (!f.draws()) return {false, no_object};
+  const std::size_t faces = f.count([](const ObjectScene& o) { return region_use(o) == RegionUse::Faces; });
+  const std::size_t cover = f.count([](const ObjectScene& o) { return region_use(o) == RegionUse::Cover; });
+  if (faces + cover == 0) return {false, "no object has regions"};
+  std::string why;
+  if (cover > 0)
+    why = objects(cover) +
+          " from few triangles, as nothing inside the shape shows: the matte product, or "
+          "depth where CG may cut in";
+  if (faces > 0) {
+    why += (cover > 0 ? "; " : "") + objects(faces) +
+           " without the back mesh, as shading or lines show: the colour product";
+  }
+  return {true, why};
+}
+
 Verdict holdout(const Facts& f) {
   if (!f.draws()) return {false, no_object};
   const std::size_t n = f.count([](const ObjectScene& o) { return o.holdout; });
@@ -118,6 +135,22 @@ Verdict merge(const Facts& f) {
                           : "what was filmed goes before the background"};
 }
 
+Verdict fluffy(const Facts& f) {
+  if (!f.draws()) return {false, no_object};
+  const std::size_t n = f.count([](const ObjectScene& o) { return o.fluffy.has_value(); });
+  if (n == 0) return {false, "no object is fluffy"};
+  return {true, objects(n) + " with fluff about the contour"};
+}
+
+Verdict line_targets(const Facts& f) {
+  if (!f.draws()) return {false, no_object};
+  const std::size_t n = f.count([](const ObjectScene& o) {
+    return o.outline && (needs_own_targets(o.outline->method) || o.outline->style.inner);
+  });
+  if (n == 0) return {false, "no line is found in pictures of its object"};
+  return {true, "lines of " + objects(n) + " need pictures of the object, in targets of their own"};
+}
+
 Verdict draw(const Facts& f) {
   if (!f.draws()) return {false, std::string(no_object) + ": no OpenGL context is made"};
   return {true, objects(f.scene.objects.size()) + " to draw"};
@@ -151,7 +184,20 @@ Verdict copy_streams(const Facts& f) {
   return {true, "sound and other streams are copied from the input"};
 }
 
-Verdict encode(const Facts&) { return {true, "frames go to the output"}; }
+Verdict show(const Facts& f) {
+  if (!f.request.watched) return {false, "frames are shown by play and live only"};
+  return {true, "frames are shown in a window"};
+}
+
+Verdict virtual_camera(const Facts& f) {
+  if (!f.request.virtual_camera) return {false, "no --virtual-camera was given"};
+  return {true, "other programs read the frames from a virtual camera"};
+}
+
+Verdict encode(const Facts& f) {
+  if (f.request.watched && f.scene.output.path.empty()) return {false, "nothing is recorded"};
+  return {true, "frames go to the output"};
+}
 
 // The table of stages, in the order a frame meets them. A new pass adds its line here.
 struct Kind {
@@ -170,9 +216,12 @@ const std::vector<Kind>& kinds() {
       {"toon", toon, {"import"}},
       {"flat", flat, {"import"}},
       {"holdout", holdout, {"import"}},
+      {"regions", regions, {"import"}},
       {"curvature", curvature, {"import"}},
-      {"outline", outline, {"import", "curvature"}},
-      {"draw", draw, {"decode", "track", "smooth", "matte", "toon", "flat", "holdout", "outline"}},
+      {"line-targets", line_targets, {"import"}},
+      {"outline", outline, {"import", "curvature", "line-targets"}},
+      {"fluffy", fluffy, {"import"}},
+      {"draw", draw, {"decode", "track", "smooth", "matte", "toon", "flat", "holdout", "regions", "outline", "fluffy"}},
       {"lens", lens, {"draw"}},
       {"background", background, {}},
       {"merge", merge, {"matte", "draw", "lens", "background"}},
@@ -180,6 +229,8 @@ const std::vector<Kind>& kinds() {
       {"unmultiply", unmultiply, {"draw", "lens", "merge"}},
       {"layers", layers, {"draw", "lens", "matte", "merge"}},
       {"copy-streams", copy_streams, {}},
+      {"show", show, {"decode", "composite", "unmultiply"}},
+      {"virtual-camera", virtual_camera, {"decode", "composite", "unmultiply"}},
       {"encode", encode, {"decode", "composite", "unmultiply", "copy-streams"}},
   };
   return all;
@@ -191,9 +242,15 @@ bool Plan::runs(std::string_view name) const {
   return std::any_of(stages.begin(), stages.end(), [name](const Stage& s) { return s.name == name && s.runs; });
 }
 
+RegionUse region_use(const ObjectScene& object) {
+  if (!object.regions) return RegionUse::None;
+  const bool one_colour = object.colour && !object.toon && !object.outline;
+  return object.holdout || one_colour ? RegionUse::Cover : RegionUse::Faces;
+}
+
 Plan make_plan(const Scene& scene, const CameraModel* camera, const Request& request) {
   const Facts facts{scene, camera, request};
-  std::set<std::string_view> asked_for = {"encode", "layers"};  // the sinks
+  std::set<std::string_view> asked_for = {"encode", "layers", "show", "virtual-camera"};  // the sinks
   Plan plan;
   for (auto kind = kinds().rbegin(); kind != kinds().rend(); ++kind) {
     Stage stage;

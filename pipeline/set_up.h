@@ -35,6 +35,10 @@ Output open_output(const Prepared& prepared, const RenderOptions& options, const
 Output open_layer(const Prepared& prepared, const RenderOptions& options, const source::Description& described,
                   const std::string& name, const PictureFormat& format);
 
+/// Refuses the filmed camera itself.
+std::unique_ptr<sink::Sink> open_virtual_camera(const Prepared& prepared, const RenderOptions& options,
+                                                const source::Description& described);
+
 /// How many frames the run will have; 0 if the source doesn't tell.
 std::int64_t frames_expected(const source::Description& described, const RenderOptions& options);
 

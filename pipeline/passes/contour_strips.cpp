@@ -51,13 +51,10 @@ void ContourStrips::collect_pieces(const mesh::Contour& contour) {
   hidden_pieces_.clear();
   for (std::uint32_t edge : contour.edges) {
     const EdgeVertices& e = edges_[edge];
-    if (e.always_hidden) {
-      hidden_pieces_.push_back({e.part0, e.a0, e.b0, false});
-      continue;
-    }
     const bool first = contour.front[e.face0] != 0 || contour.front[e.face1] == 0;
     const bool from_behind = contour.front[first ? e.face0 : e.face1] == 0;
-    pieces_.push_back(first ? Piece{e.part0, e.a0, e.b0, from_behind} : Piece{e.part1, e.b1, e.a1, from_behind});
+    (e.always_hidden ? hidden_pieces_ : pieces_)
+        .push_back(first ? Piece{e.part0, e.a0, e.b0, from_behind} : Piece{e.part1, e.b1, e.a1, from_behind});
   }
   if (parts_ > 1) {
     std::stable_sort(pieces_.begin(), pieces_.end(), [](const Piece& a, const Piece& b) { return a.part < b.part; });

@@ -15,7 +15,7 @@ struct View {
 };
 
 /// Nearer than this nothing is drawn.
-inline constexpr double near_m = 1e-3;
+inline constexpr double near_m = 1e-5;
 
 /// The one place where OpenCV's camera (+z forward, y down, pixel centres at whole numbers) becomes GL's clip space.
 ///

@@ -35,10 +35,10 @@ glm::dvec3 read_scale(const Table& object) {
 toml::Schema object_schema() {
   toml::Schema schema = {{.path = "object",
                           .keys = {"mesh", "name", "position_m", "rotation_deg", "height_m", "scale", "up", "anchor",
-                                   "crease_deg", "colour", "toon", "outline", "holdout"},
+                                   "crease_deg", "colour", "toon", "outline", "fluffy", "holdout", "regions"},
                           .repeated = true}};
   // What an object is drawn with; a new pass adds its line here.
-  for (const toml::Schema& pass : {toon_schema(), outline_schema()}) {
+  for (const toml::Schema& pass : {toon_schema(), outline_schema(), fluffy_schema()}) {
     schema.insert(schema.end(), pass.begin(), pass.end());
   }
   return schema;
@@ -63,9 +63,10 @@ ObjectScene read_object(const Table& object) {
   scene.anchor = anchor == "base" ? ObjectScene::Anchor::Base : ObjectScene::Anchor::Origin;
   scene.crease_deg = object.number("crease_deg", {0, 180}).value_or(scene.crease_deg);
   scene.colour = read_colour(object, "colour");
+  scene.regions = read_regions(object);
   scene.holdout = object.flag("holdout").value_or(false);
   if (scene.holdout) {
-    for (const std::string_view key : {"colour", "toon", "outline"}) {
+    for (const std::string_view key : {"colour", "toon", "outline", "fluffy"}) {
       if (object.has(key))
         throw object.error_at(key, "has no meaning for a holdout, which is not drawn", "leave it out");
     }
@@ -73,6 +74,7 @@ ObjectScene read_object(const Table& object) {
   }
   scene.toon = read_toon(object);
   scene.outline = read_outline(object);
+  scene.fluffy = read_fluffy(object, scene.outline.has_value());
   return scene;
 }
 
