@@ -29,6 +29,7 @@ fluffy::TransmissionImage transmission_of(const FluffyScene& scene) {
 fluffy::CutMethod method_of(FluffyScene::Cut cut) {
   switch (cut) {
     case FluffyScene::Cut::Exact:
+    case FluffyScene::Cut::Gpu:
       return fluffy::CutMethod::Exact;
     case FluffyScene::Cut::Regions:
       return fluffy::CutMethod::Regions;
@@ -80,6 +81,7 @@ std::unique_ptr<passes::ObjectPass> make_fluffy_pass(passes::DrawnObject& drawn,
   const FluffyScene& scene = *object.fluffy;
   fluffy::FluffyOptions options;
   options.cut.method = method_of(scene.cut);
+  options.cut_on_gpu = scene.cut == FluffyScene::Cut::Gpu;
   options.cut.sine = fluffy::band_sine(scene.angle_deg * std::numbers::pi / 180);
   options.hang = {0, 0, static_cast<float>(-scene.hang)};
   if (scene.paint == FluffyScene::Paint::Own) options.colour = colour(scene.colour);

@@ -122,9 +122,12 @@ std::optional<FluffyScene> read_fluffy(const Table& object, bool outlined) {
     throw fluffy->error_at("line", "says where the outline runs, and the object has none", "add 'outline' to it");
   }
   using Cut = FluffyScene::Cut;
-  scene.cut = read_choice<Cut>(
-                  *fluffy, "cut",
-                  {{"exact", Cut::Exact}, {"regions", Cut::Regions}, {"nearest", Cut::Nearest}, {"none", Cut::None}})
+  scene.cut = read_choice<Cut>(*fluffy, "cut",
+                               {{"exact", Cut::Exact},
+                                {"gpu", Cut::Gpu},
+                                {"regions", Cut::Regions},
+                                {"nearest", Cut::Nearest},
+                                {"none", Cut::None}})
                   .value_or(scene.cut);
   return scene;
 }

@@ -28,7 +28,7 @@ struct FluffyScene {
   std::array<double, 3> colour{1, 1, 1};                 ///< sRGB; for Paint::Own
   double hang = 0.25;                                    ///< how far tips hang down, in lengths of the fluff
   enum class Line { Body, Rim, None } line = Line::Rim;  ///< where the object's outline runs, if it has one
-  enum class Cut { Exact, Regions, Nearest, None } cut = Cut::Exact;
+  enum class Cut { Exact, Gpu, Regions, Nearest, None } cut = Cut::Exact;
 };
 
 toml::Schema fluffy_schema();

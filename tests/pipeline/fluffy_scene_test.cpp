@@ -70,6 +70,7 @@ TEST(FluffyScene, APictureIsLaidOnAsTheMeshHasItAndInItsOwnColours) {
   EXPECT_EQ(fluff.frame.scale, 1.3);
   EXPECT_EQ(fluff.frame.repeat, 2);
   EXPECT_EQ(read("fluffy = { texture = \"fur.png\", colour = \"body\" }").paint, FluffyScene::Paint::Body);
+  EXPECT_EQ(read("fluffy = { cut = \"gpu\" }").cut, FluffyScene::Cut::Gpu);
   EXPECT_EQ(read("fluffy = { parts = \"mane\" }").frame.selection.names, std::vector<std::string>{"mane"});
 }
 

@@ -64,12 +64,16 @@ FluffyPass::FluffyPass(passes::DrawnObject& object, const Frame& frame, const Tr
       options_(options),
       layers_(static_cast<std::uint32_t>(image.layers)),
       longest_m_(frame.longest_m * (1.0 + glm::length(options.hang))),
-      cutter_(frame, options.cut),
-      order_(frame, layers_),
       vertices_(upload(frame)),
       array_(make_array()),
       image_(image.width_px, image.height_px, image.layers, image.rgba),
       fluff_(options.bands > 0 ? Defines{"LIT"} : Defines{}) {
+  if (options.cut_on_gpu) {
+    gpu_cut_.emplace(frame, layers_, options.cut.sine);
+  } else {
+    cutter_.emplace(frame, options.cut);
+    order_.emplace(frame, layers_);
+  }
   set_up(fluff_);
   if (!options.rim) return;
   rim_.emplace(Defines{"RIM"});
@@ -124,15 +128,25 @@ FluffyPass::Density FluffyPass::density(const passes::View& view) const {
   return {step, static_cast<float>(std::clamp(wished / half - 1, 0.0, 1.0))};
 }
 
+GLsizei FluffyPass::find(const glm::dvec3& eye, std::uint32_t step) {
+  if (gpu_cut_) {
+    gpu_cut_->run(vertices_.name(), eye, step);
+    return -1;
+  }
+  const std::span<const std::uint32_t> indices = order_->sorted(cutter_->find(eye), eye, step);
+  if (indices.empty()) return 0;
+  indices_.write(std::as_bytes(indices));
+  glVertexArrayElementBuffer(array_.name(), indices_.name());
+  return static_cast<GLsizei>(indices.size());
+}
+
 void FluffyPass::draw_edges(const passes::DrawCall& call) {
   const glm::dmat4& world_from_object = object_.shape().world_from_object();
   const RigidTransform world_from_camera = inverse(call.view.camera_from_world);
   const glm::dvec3 eye = world_from_camera.translation_m - glm::dvec3(world_from_object[3]);
   const Density drawn = density(call.view);
-  const std::span<const std::uint32_t> indices = order_.sorted(cutter_.find(eye), eye, drawn.step);
-  if (indices.empty()) return;
-  indices_.write(std::as_bytes(indices));
-  glVertexArrayElementBuffer(array_.name(), indices_.name());
+  const GLsizei count = find(eye, drawn.step);
+  if (count == 0) return;
   const glm::mat4 object_from_frame(glm::dmat4(glm::inverse(glm::dmat3(world_from_object))));
   const glm::mat4 clip_from_frame = call.clip_from_object * object_from_frame;
   glBindTextureUnit(0, image_.name());
@@ -146,7 +160,11 @@ void FluffyPass::draw_edges(const passes::DrawCall& call) {
     glUniform2f(painter->viewport_px, call.viewport_px.x, call.viewport_px.y);
     glUniform1ui(painter->step_between, drawn.step);
     glUniform1f(painter->fresh, drawn.fresh);
-    glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(indices.size()), GL_UNSIGNED_INT, nullptr);
+    if (gpu_cut_) {
+      gpu_cut_->draw();
+    } else {
+      glDrawElements(GL_TRIANGLES, count, GL_UNSIGNED_INT, nullptr);
+    }
   }
 }
 

@@ -10,6 +10,7 @@
 #include "outline/fluffy/cutter.h"
 #include "outline/fluffy/draw_order.h"
 #include "outline/fluffy/frame.h"
+#include "outline/fluffy/pass/gpu_cut.h"
 #include "outline/fluffy/transmission.h"
 #include "pipeline/gl/buffer.h"
 #include "pipeline/gl/program.h"
@@ -26,6 +27,7 @@ struct RimLine {
 
 struct FluffyOptions {
   CutOptions cut;
+  bool cut_on_gpu = false;          ///< by GpuCut instead, with the sine of `cut`
   float fade_from = 0.45f;          ///< 0 to 1: the part of the band in which fluff doesn't fade yet
   glm::vec3 hang{0, 0, -0.25f};     ///< in the world: where the tips hang, in lengths of the fluff
   float foot_shade = 0.88f;         ///< what fluff's colour is multiplied by at the skin
@@ -68,12 +70,16 @@ class FluffyPass : public passes::ObjectPass {
   };
   void set_up(const Painter& painter) const;
 
+  // Finds and sorts what is to be drawn for this eye; returns how many indices, if the CPU knows.
+  GLsizei find(const glm::dvec3& eye, std::uint32_t step);
+
   passes::DrawnObject& object_;
   FluffyOptions options_;
   std::uint32_t layers_;
   double longest_m_;
-  Cutter cutter_;
-  DrawOrder order_;
+  std::optional<GpuCut> gpu_cut_;  // or:
+  std::optional<Cutter> cutter_;
+  std::optional<DrawOrder> order_;
   gl::StaticBuffer vertices_;
   gl::StreamBuffer indices_;
   gl::VertexArrayHandle array_;

@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <memory>
 #include <numbers>
+#include <set>
+#include <span>
 #include <vector>
 
 #include <glm/gtc/matrix_transform.hpp>
@@ -12,6 +14,7 @@
 
 #include "mesh/topology.h"
 #include "outline/fluffy/fur_textures.h"
+#include "outline/fluffy/pass/gpu_cut.h"
 #include "pipeline/passes/holdout/holdout_pass.h"
 #include "tests/outline/fluffy/frames.h"
 #include "tests/pipeline/passes/drawing.h"
@@ -96,6 +99,66 @@ TEST_F(Fluffy, PictureIsTheSameHoweverTheTrianglesWereFound) {
       // What is left out has opacity 0, so not one value may differ.
       EXPECT_EQ(cut.rgba, uncut.rgba);
     }
+  }
+}
+
+TEST_F(Fluffy, GpuListsTheTrianglesThatTheCpuFinds) {
+  for (const int levels : {1, 3, 4}) {  // 32 triangles: part of a workgroup; 2,048: eight rounds
+    const fluffy::Frame frame = frame_of(sphere(levels));
+    const double sine = fluffy::band_sine(0.8);
+    fluffy::BandCut cut(fluffy::by_corners(frame), sine);
+    struct Vertex {
+      glm::vec3 position;
+      float u = 0;
+      glm::vec3 growth{0};
+      float v = 0;
+      glm::vec3 normal;
+      std::uint32_t colour = 0;
+    };
+    std::vector<Vertex> vertices;
+    for (const fluffy::FrameVertex& v : frame.vertices) {
+      vertices.push_back({frame.points[v.point], 0, {}, 0, frame.normals[v.point], 0});
+    }
+    const gl::StaticBuffer buffer(std::as_bytes(std::span(vertices)));
+    constexpr std::uint32_t layers = 3;
+    fluffy::GpuCut gpu(frame, layers, sine);
+    for (const glm::dvec3& eye : {glm::dvec3(0, 0, 5), glm::dvec3(2, 1, -1), glm::dvec3(-30, 70, 10)}) {
+      gpu.run(buffer.name(), eye, 2);
+      const std::vector<std::uint32_t> indices = gpu.read();
+      const auto expected = cut.find(eye);
+      constexpr std::uint32_t drawn = 2;  // the first and the third
+      // Rounding may decide otherwise where a triangle's least facing is within 1e-6 of the band's end.
+      ASSERT_NEAR(static_cast<double>(indices.size()), static_cast<double>(expected.size() * drawn * 3), 2 * drawn * 3);
+      std::set<std::uint32_t> listed;
+      bool facing = false;
+      for (std::size_t i = 0; i < indices.size(); i += drawn * 3) {
+        const glm::uvec3 corners(indices[i] / layers, indices[i + 1] / layers, indices[i + 2] / layers);
+        const auto triangle = std::find(frame.triangles.begin(), frame.triangles.end(), corners);
+        ASSERT_NE(triangle, frame.triangles.end());
+        listed.insert(static_cast<std::uint32_t>(triangle - frame.triangles.begin()));
+        const bool outwards = indices[i] % layers == 0;
+        EXPECT_EQ(indices[i + 3] % layers, outwards ? 2u : 0u);
+        EXPECT_TRUE(outwards || !facing);  // those that face away come first
+        facing = outwards;
+      }
+      EXPECT_EQ(listed.size(), indices.size() / (drawn * 3));
+      std::size_t missed = 0;
+      for (const std::uint32_t t : expected) missed += listed.contains(t) ? 0 : 1;
+      EXPECT_LE(missed, 2u);
+    }
+  }
+}
+
+TEST_F(Fluffy, GpuCutCoversTheSame) {
+  const View v = view(160, 160, 300);
+  FluffyOptions options = options_for(CutMethod::Exact);
+  const Layer sorted = drawn(scene_of(with_fluff(ball(4), turned(0.4), options, fur(4))), v);
+  options.cut_on_gpu = true;
+  const Layer listed = drawn(scene_of(with_fluff(ball(4), turned(0.4), options, fur(4))), v);
+  ASSERT_EQ(listed.rect, sorted.rect);
+  for (std::size_t i = 3; i < listed.rgba.size(); i += 4) {
+    // What layers cover together doesn't depend on their order, but for rounding to 8 bits each time.
+    ASSERT_NEAR(listed.rgba[i], sorted.rgba[i], 4);
   }
 }
 
