@@ -88,12 +88,6 @@ sink::Incoming incoming(const source::Description& described, const PictureForma
   return in;
 }
 
-}  // namespace
-
-PictureFormat straight_alpha_format(const PictureFormat& plate) {
-  return passes::rgba_format(plate.width_px, plate.height_px, plate.sample_aspect);
-}
-
 // Where the scene leaves the size open, it is the one that the camera was calibrated at.
 source::v4l2::CameraOptions camera_options(const Prepared& prepared) {
   const CameraDevice& scene = *prepared.scene.plate.device;
@@ -120,6 +114,10 @@ source::v4l2::CameraOptions camera_options(const Prepared& prepared) {
 }
 
 }  // namespace
+
+PictureFormat straight_alpha_format(const PictureFormat& plate) {
+  return passes::rgba_format(plate.width_px, plate.height_px, plate.sample_aspect);
+}
 
 Prepared prepare(Scene scene, const RenderOptions& options) {
   // Whoever looks on need not want what the scene writes.
