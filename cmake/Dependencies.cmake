@@ -1,7 +1,7 @@
 # Every outside library, found once. All are Debian 12 packages (scripts/packages lists them).
 find_package(Threads REQUIRED)
 find_package(PkgConfig REQUIRED)
-find_package(OpenCV 4.6 REQUIRED COMPONENTS core imgproc imgcodecs calib3d aruco)
+find_package(OpenCV 4.6 REQUIRED COMPONENTS core imgproc imgcodecs video dnn calib3d aruco)
 find_package(glm REQUIRED)
 find_package(tomlplusplus REQUIRED)
 find_package(CLI11 REQUIRED)

@@ -116,22 +116,24 @@ std::vector<Line::Stage*> Line::stages_of(Group group) {
 }
 
 std::int64_t Line::run(const Decode& decode, const Drawn& drawn_one, Pace pace) {
-  const auto track = stages_of(Group::Track), draw = stages_of(Group::Draw);
+  const auto track = stages_of(Group::Track), matte = stages_of(Group::Matte), draw = stages_of(Group::Draw);
   const auto composite = stages_of(Group::Composite), encode = stages_of(Group::Encode);
   const bool newest = pace == Pace::NewestFrame;
   const std::size_t waiting = newest ? live_queue_frames : queue_frames;
   const WhenFull live_full = newest ? WhenFull::DropOldest : WhenFull::Wait;
   Queue decoded(waiting, live_full, dropped_before_), tracked(waiting, live_full, dropped_before_),
-      drawn(waiting, live_full, dropped_before_);
+      matted(waiting, live_full, dropped_before_), drawn(waiting, live_full, dropped_before_);
   Queue finished(newest ? live_encode_frames : queue_frames, live_full, dropped_drawn_);
-  Queue& to_draw = track.empty() ? decoded : tracked;
+  Queue& to_matte = track.empty() ? decoded : tracked;
+  Queue& to_draw = matte.empty() ? to_matte : matted;
   Queue& from_draw = composite.empty() ? finished : drawn;
   std::int64_t frames = 0;
   std::exception_ptr failure;  // of any stage: exceptions travel down the queues and end here
   {
-    Threads threads({&decoded, &tracked, &drawn, &finished});
+    Threads threads({&decoded, &tracked, &matted, &drawn, &finished});
     threads.start([&] { decode_all(decode, decode_times_, decoded); });
     if (!track.empty()) threads.start([&] { hand_on(decoded, track, tracked); });
+    if (!matte.empty()) threads.start([&] { hand_on(to_matte, matte, matted); });
     if (!composite.empty()) threads.start([&] { hand_on(drawn, composite, finished); });
     threads.start([&] { failure = take_in(finished, encode, frames); });
     hand_on(to_draw, draw, from_draw, drawn_one);
@@ -151,19 +153,6 @@ std::vector<StageReport> Line::reports() const {
   std::vector<StageReport> all{{"decode", decode_times_}};
   for (const Stage& stage : stages_) all.push_back(stage.report);
   return all;
-}
-
-passes::Layer SpentLayers::take() {
-  std::lock_guard lock(mutex_);
-  if (layers_.empty()) return {};
-  passes::Layer layer = std::move(layers_.back());
-  layers_.pop_back();
-  return layer;
-}
-
-void SpentLayers::give_back(passes::Layer layer) {
-  std::lock_guard lock(mutex_);
-  layers_.push_back(std::move(layer));
 }
 
 }  // namespace rinkaku::pipeline

@@ -8,10 +8,13 @@
 #include <functional>
 #include <mutex>
 #include <optional>
+#include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "pipeline/frame/frame.h"
+#include "pipeline/frame/matte.h"
 #include "pipeline/frame/tracked_pose.h"
 #include "pipeline/passes/layer.h"
 #include "pipeline/stage_times.h"
@@ -22,10 +25,17 @@ namespace rinkaku::pipeline {
 struct Work {
   Frame frame;
   std::optional<TrackedPose> pose;
-  passes::Layer layer;
+  std::vector<Matte> mattes;          ///< of filmed things, nearest first
+  std::vector<passes::Layer> slices;  ///< CG before, between and behind the mattes; one more than they are
+  passes::Layer layer;                ///< what is to be laid over the plate
   /// How long each stage took over this very frame, in the order of Line::stage_names(); decoding is the first.
   static constexpr std::size_t most_stages = 24;
   std::array<float, most_stages> stage_ms{};
+
+  /// Where CG is drawn: the layer itself, or slices of depth where something was filmed that it can be behind.
+  std::span<passes::Layer> drawn() {
+    return mattes.empty() ? std::span<passes::Layer>(&layer, 1) : std::span<passes::Layer>(slices);
+  }
 };
 
 /// How frames move along a line.
@@ -41,14 +51,14 @@ struct StageReport {
 
 /// The stages of a run, grouped by the thread that they share:
 ///
-///     decode -> track -> draw -> composite -> encode
+///     decode -> track -> matte -> draw -> composite -> encode
 ///
 /// joined by bounded queues, so that memory does not grow with the video. Drawing runs on the thread that calls run(),
 /// as its GL context lives there; a group without stages has no thread. Frames keep their order.
 class Line {
  public:
   using Step = std::function<void(Work&)>;
-  enum class Group { Track, Draw, Composite, Encode };
+  enum class Group { Track, Matte, Draw, Composite, Encode };
 
   /// Stages of a group run in the order in which they were added. `name` is what reports call it.
   void add(Group group, const char* name, Step step);
@@ -88,16 +98,26 @@ class Line {
   std::atomic<std::int64_t> dropped_before_{0}, dropped_drawn_{0};
 };
 
-/// Layers on their way back from where they are laid over the plate to where they are drawn, with their memory.
-class SpentLayers {
+/// Values on their way back from the end of the line to where they are made, with their memory.
+template <class T>
+class Spent {
  public:
   /// One whose memory may be used again, or an empty one.
-  passes::Layer take();
-  void give_back(passes::Layer layer);
+  T take() {
+    std::lock_guard lock(mutex_);
+    if (values_.empty()) return {};
+    T value = std::move(values_.back());
+    values_.pop_back();
+    return value;
+  }
+  void give_back(T value) {
+    std::lock_guard lock(mutex_);
+    values_.push_back(std::move(value));
+  }
 
  private:
   std::mutex mutex_;
-  std::vector<passes::Layer> layers_;
+  std::vector<T> values_;
 };
 
 }  // namespace rinkaku::pipeline

@@ -5,10 +5,13 @@
 #include <utility>
 
 #include "pipeline/drawing.h"
+#include "pipeline/filmed_things.h"
 #include "pipeline/frame/error.h"
+#include "pipeline/layer_files.h"
 #include "pipeline/line.h"
 #include "pipeline/passes/composite/blend.h"
 #include "pipeline/passes/composite/lens_map.h"
+#include "pipeline/passes/composite/merge.h"
 #include "pipeline/passes/composite/straight_alpha.h"
 #include "pipeline/passes/layer_renderer.h"
 #include "pipeline/set_up.h"
@@ -16,6 +19,7 @@
 #include "pipeline/source/source.h"
 #include "pipeline/track/tracker.h"
 #include "pipeline/water_stage.h"
+#include "pipeline/world.h"
 
 namespace rinkaku::pipeline {
 namespace {
@@ -30,13 +34,24 @@ std::int64_t skip_to(source::Source& source, std::int64_t first_frame, const std
 }
 
 // The frames from here on, until there are none, or the end, or `stop` says so.
-Line::Decode decoder(source::Source& source, const RenderOptions& options, const std::atomic<bool>& stop) {
+Line::Decode decoder(source::Source& source, const RenderOptions& options, const std::atomic<bool>& stop,
+                     Spent<Work>& spent) {
   return [&]() -> std::optional<Work> {
     if (stop) return std::nullopt;
     std::optional<Frame> frame = source.next();
     if (!frame || frame->number >= options.end_frame) return std::nullopt;
-    return Work{std::move(*frame), std::nullopt, {}};
+    Work work = spent.take();
+    work.frame = std::move(*frame);
+    return work;
   };
+}
+
+// The frame's layers to be drawn into, empty.
+std::span<passes::Layer> empty_layers(Work& work) {
+  work.slices.resize(work.mattes.empty() ? 0 : work.mattes.size() + 1);
+  for (passes::Layer& layer : work.slices) layer.rect = {};
+  work.layer.rect = {};
+  return work.drawn();
 }
 
 // Tells the watcher that the run begins, and that it ended, whichever way that is.
@@ -95,13 +110,20 @@ RenderReport render(const Prepared& prepared, const RenderOptions& options, cons
     });
   }
 
+  std::optional<FilmedThings> filmed;
+  if (plan.runs("matte")) {
+    filmed.emplace(prepared, described);
+    line.add(Group::Matte, "matte", [&](Work& work) { filmed->find(work); });
+  }
+
   std::optional<passes::LensMap> lens;
   if (plan.runs("lens")) lens.emplace(*prepared.camera);
   // On the video's clock, whatever its file's says.
   const auto time_s = [first_s = described.first_time_s()](const Frame& frame) { return frame.time_s() - first_s; };
   std::optional<Drawing> drawing;
   std::optional<WaterStage> water;
-  SpentLayers spent;
+  std::vector<double> cuts_m;
+  Spent<Work> spent;
   if (plan.runs("draw")) {
     const passes::PixelRect picture{0, 0, result.width_px, result.height_px};
     drawing.emplace(make_drawing(scene, lens ? lens->pinhole_rect() : picture,
@@ -115,31 +137,46 @@ RenderReport render(const Prepared& prepared, const RenderOptions& options, cons
       });
     }
     line.add(Group::Draw, "draw", [&](Work& work) {
-      work.layer = spent.take();
-      work.layer.rect = {};
+      const std::span<passes::Layer> layers = empty_layers(work);
       if (watcher) take_change(*watcher, work.frame, *drawing);
       if (!work.pose || work.pose->opacity <= 0) return;
       ++result.posed_frames;
-      drawing->renderer->draw({*prepared.camera, work.pose->camera_from_world, time_s(work.frame)}, work.layer);
+      cuts_m.clear();
+      for (const Matte& matte : work.mattes) cuts_m.push_back(cut_m(matte));
+      drawing->renderer->draw({*prepared.camera, work.pose->camera_from_world, time_s(work.frame)}, cuts_m, layers);
     });
   }
   passes::Layer distorted;
   if (lens) {
     line.add(Group::Composite, "lens", [&](Work& work) {
-      lens->distort(work.layer, distorted);
-      std::swap(work.layer, distorted);
+      for (passes::Layer& layer : work.drawn()) {
+        lens->distort(layer, distorted);
+        std::swap(layer, distorted);
+      }
     });
   }
   if (watcher) line.add(Group::Composite, "watch", [&](Work& work) { watcher->drawn(work); });
   FramePool pool;
   passes::Blender blender;
-  auto opacity = [](const Work& work) { return work.pose ? work.pose->opacity : 0.0; };
-  Output output, layers;
+  std::optional<World> world;
+  // A world in the plate's place doesn't fade with what was drawn into it.
+  auto opacity = [&world](const Work& work) { return world ? 1.0 : work.pose ? work.pose->opacity : 0.0; };
+  Output output;
   if (plan.runs("encode")) output = open_output(prepared, options, described);
+  std::optional<LayerFiles> layers;
   if (plan.runs("layers")) {
-    layers = open_layers(prepared, options, described);
-    line.add(Group::Composite, "layers", [&](Work& work) {
-      layers.sink->write(straight_alpha_frame(work.frame, work.layer, opacity(work), pool));
+    layers.emplace(prepared, options, described);
+    line.add(Group::Composite, "layers", [&](Work& work) { layers->write(work, opacity(work)); });
+  }
+  if (plan.runs("merge")) {
+    if (plan.runs("background")) world.emplace(*scene.background, described);
+    line.add(Group::Composite, "merge", [&](Work& work) {
+      if (world) {
+        if (!drawing) empty_layers(work);
+        for (passes::Layer& layer : work.slices) passes::fade(layer, work.pose ? work.pose->opacity : 0.0);
+        passes::put_behind(world->next(), work.slices.back(), distorted);
+      }
+      passes::merge({work.slices, work.mattes, plan.runs("composite")}, work.layer);
     });
   }
   if (plan.runs("composite")) {
@@ -162,7 +199,9 @@ RenderReport render(const Prepared& prepared, const RenderOptions& options, cons
   }
   line.add(Group::Encode, "encode", [&](Work& work) {
     if (output.sink && !work.frame.repeated) output.sink->write(work.frame);
-    spent.give_back(std::move(work.layer));
+    work.frame = {};
+    work.pose.reset();
+    spent.give_back(std::move(work));
   });
 
   const auto start = std::chrono::steady_clock::now();
@@ -172,8 +211,8 @@ RenderReport render(const Prepared& prepared, const RenderOptions& options, cons
   const Line::Drawn drawn_one = [&, done = std::int64_t{0}]() mutable {
     if (progress) progress(++done, total);
   };
-  result.frames =
-      line.run(decoder(*source, options, stop), drawn_one, described.live ? Pace::NewestFrame : Pace::EveryFrame);
+  result.frames = line.run(decoder(*source, options, stop, spent), drawn_one,
+                           described.live ? Pace::NewestFrame : Pace::EveryFrame);
   result.interrupted = stop;
   result.dropped = line.dropped();
   if (const std::int64_t dropped = result.dropped.before + result.dropped.drawn; dropped > 0) {
@@ -188,10 +227,13 @@ RenderReport render(const Prepared& prepared, const RenderOptions& options, cons
   if (plan.runs("draw") && result.frames > 0 && result.posed_frames == 0 && all_there) {
     throw no_pose_error(prepared, described, result.frames);
   }
-  for (sink::Sink* each : {output.sink.get(), layers.sink.get(), virtual_camera.get()}) {
+  for (sink::Sink* each : {output.sink.get(), virtual_camera.get()}) {
     if (each == nullptr) continue;
     each->finish();
     if (!each->notice().empty()) result.notices.push_back(each->notice());
+  }
+  if (layers) {
+    for (std::string& notice : layers->finish()) result.notices.push_back(std::move(notice));
   }
   result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   if (!source->damage().empty()) result.notices.push_back(source->damage());

@@ -14,6 +14,7 @@ struct Facts {
   bool draws() const { return !scene.objects.empty(); }
   bool anything() const { return draws() || scene.water; }
   bool composites() const { return scene.output.content == OutputScene::Content::Composite; }
+  bool replaces_plate() const { return composites() && scene.background.has_value(); }
   template <typename Wanted>
   std::size_t count(Wanted wanted) const {
     return static_cast<std::size_t>(std::count_if(scene.objects.begin(), scene.objects.end(), wanted));
@@ -127,6 +128,27 @@ Verdict water(const Facts& f) {
   return {true, (n == 1 ? "1 surface" : std::to_string(n) + " surfaces") + " painted with strokes"};
 }
 
+Verdict matte(const Facts& f) {
+  if (f.scene.foregrounds.empty()) return {false, "the scene has no [[foreground]]"};
+  std::string names;
+  for (const ForegroundScene& each : f.scene.foregrounds) names += (names.empty() ? "" : ", ") + each.name;
+  return {true, "mattes are found of " + names};
+}
+
+Verdict background(const Facts& f) {
+  if (!f.scene.background) return {false, "the scene has no [background]"};
+  if (!f.composites()) return {false, "the output is the CG alone"};
+  return {true, f.scene.background->colour ? "a colour stands in the plate's place"
+                                           : "the plate's place is taken by " + f.scene.background->input};
+}
+
+Verdict merge(const Facts& f) {
+  if (f.scene.foregrounds.empty()) return {false, "the scene has no [[foreground]]"};
+  if (!f.draws() && !f.replaces_plate()) return {false, no_object};
+  return {true, f.draws() ? "CG goes before and behind what was filmed, by depth"
+                          : "what was filmed goes before the background"};
+}
+
 Verdict fluffy(const Facts& f) {
   if (!f.draws()) return {false, no_object};
   const std::size_t n = f.count([](const ObjectScene& o) { return o.fluffy.has_value(); });
@@ -158,6 +180,7 @@ Verdict lens(const Facts& f) {
 
 Verdict composite(const Facts& f) {
   if (!f.composites()) return {false, "the output is the CG alone"};
+  if (f.replaces_plate()) return {true, "background and CG are laid over the plate's own planes"};
   if (!f.anything()) return {false, "nothing is drawn: the plate goes to the sink untouched"};
   return {true, "CG is laid over the plate's own planes"};
 }
@@ -169,7 +192,7 @@ Verdict unmultiply(const Facts& f) {
 
 Verdict layers(const Facts& f) {
   if (!f.request.layers) return {false, "no --layers was given"};
-  return {true, "the CG layer of each frame is written as PNG"};
+  return {true, "each layer of each frame is written as PNG"};
 }
 
 Verdict copy_streams(const Facts& f) {
@@ -204,6 +227,7 @@ const std::vector<Kind>& kinds() {
       {"decode", decode, {}},
       {"track", track, {"decode"}},
       {"smooth", smooth, {"track"}},
+      {"matte", matte, {"decode", "track"}},
       {"import", import, {}},
       {"animate", animate, {"decode", "import"}},
       {"toon", toon, {"import"}},
@@ -217,11 +241,14 @@ const std::vector<Kind>& kinds() {
       {"water", water, {"decode", "track", "smooth"}},
       {"draw",
        draw,
-       {"decode", "track", "smooth", "animate", "toon", "flat", "holdout", "regions", "outline", "fluffy", "water"}},
+       {"decode", "track", "smooth", "matte", "animate", "toon", "flat", "holdout", "regions", "outline", "fluffy",
+        "water"}},
       {"lens", lens, {"draw"}},
-      {"composite", composite, {"decode", "draw", "lens"}},
-      {"unmultiply", unmultiply, {"draw", "lens"}},
-      {"layers", layers, {"draw", "lens"}},
+      {"background", background, {}},
+      {"merge", merge, {"matte", "draw", "lens", "background"}},
+      {"composite", composite, {"decode", "draw", "lens", "merge"}},
+      {"unmultiply", unmultiply, {"draw", "lens", "merge"}},
+      {"layers", layers, {"draw", "lens", "matte", "merge"}},
       {"copy-streams", copy_streams, {}},
       {"show", show, {"decode", "composite", "unmultiply"}},
       {"virtual-camera", virtual_camera, {"decode", "composite", "unmultiply"}},

@@ -8,6 +8,7 @@
 
 #include <sys/stat.h>
 
+#include "pipeline/layer_files.h"
 #include "pipeline/passes/composite/blend.h"
 #include "pipeline/passes/composite/straight_alpha.h"
 #include "pipeline/sink/output_names.h"
@@ -50,8 +51,8 @@ void refuse_own_input(const std::string& output, const std::string& input) {
   }
 }
 
-std::string layers_pattern(const RenderOptions& options) {
-  return (fs::path(options.layers_folder) / "cg_%06d.png").string();
+std::string layer_pattern(const RenderOptions& options, const std::string& name) {
+  return (fs::path(options.layers_folder) / (name + "_%06d.png")).string();
 }
 
 Output open_in_folder(const sink::Options& to, const sink::Incoming& in) {
@@ -87,10 +88,6 @@ sink::Incoming incoming(const source::Description& described, const PictureForma
   return in;
 }
 
-PictureFormat straight_alpha_format(const PictureFormat& plate) {
-  return passes::rgba_format(plate.width_px, plate.height_px, plate.sample_aspect);
-}
-
 // Where the scene leaves the size open, it is the one that the camera was calibrated at.
 source::v4l2::CameraOptions camera_options(const Prepared& prepared) {
   const CameraDevice& scene = *prepared.scene.plate.device;
@@ -117,6 +114,10 @@ source::v4l2::CameraOptions camera_options(const Prepared& prepared) {
 }
 
 }  // namespace
+
+PictureFormat straight_alpha_format(const PictureFormat& plate) {
+  return passes::rgba_format(plate.width_px, plate.height_px, plate.sample_aspect);
+}
 
 Prepared prepare(Scene scene, const RenderOptions& options) {
   // Whoever looks on need not want what the scene writes.
@@ -181,9 +182,12 @@ Output open_output(const Prepared& prepared, const RenderOptions& options, const
                       "leave it out, or give -o -");
   }
   if (output.path != "-") refuse_own_input(output.path, prepared.scene.plate.input);
-  if (prepared.plan.runs("layers") && sink::share_a_file(output.path, layers_pattern(options))) {
-    throw input_error(output.path, "the layers are to be written under the same names",
-                      "choose another output, or another folder for --layers");
+  if (prepared.plan.runs("layers")) {
+    for (const std::string& name : layer_names(prepared.scene)) {
+      if (!sink::share_a_file(output.path, layer_pattern(options, name))) continue;
+      throw input_error(output.path, "the layers are to be written under the same names",
+                        "choose another output, or another folder for --layers");
+    }
   }
   sink::Options to;
   to.path = output.path;
@@ -198,12 +202,13 @@ Output open_output(const Prepared& prepared, const RenderOptions& options, const
   return open_in_folder(to, in);
 }
 
-Output open_layers(const Prepared& prepared, const RenderOptions& options, const source::Description& described) {
+Output open_layer(const Prepared& prepared, const RenderOptions& options, const source::Description& described,
+                  const std::string& name, const PictureFormat& format) {
   sink::Options to;
-  to.path = layers_pattern(options);
+  to.path = layer_pattern(options, name);
   refuse_own_input(to.path, prepared.scene.plate.input);
   to.overwrite = options.overwrite;
-  return open_in_folder(to, incoming(described, straight_alpha_format(described.format)));
+  return open_in_folder(to, incoming(described, format));
 }
 
 std::unique_ptr<sink::Sink> open_virtual_camera(const Prepared& prepared, const RenderOptions& options,

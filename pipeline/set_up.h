@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <string>
 
 #include "pipeline/frame/error.h"
 #include "pipeline/frame/frame.h"
@@ -30,8 +31,9 @@ struct Output {
 /// Refuses to write over the input, or over the layers.
 Output open_output(const Prepared& prepared, const RenderOptions& options, const source::Description& described);
 
-/// PNGs of the CG alone in the layers folder: cg_000000.png, ...
-Output open_layers(const Prepared& prepared, const RenderOptions& options, const source::Description& described);
+/// PNGs of one layer in the layers folder: NAME_000000.png, ... of frames of that format.
+Output open_layer(const Prepared& prepared, const RenderOptions& options, const source::Description& described,
+                  const std::string& name, const PictureFormat& format);
 
 /// Refuses the filmed camera itself.
 std::unique_ptr<sink::Sink> open_virtual_camera(const Prepared& prepared, const RenderOptions& options,
@@ -51,6 +53,9 @@ Error no_frame_error(const source::Description& described, const RenderOptions& 
 
 /// What to tell when no frame had a pose.
 Error no_pose_error(const Prepared& prepared, const source::Description& described, std::int64_t frames);
+
+/// The format of the CG alone, on nothing, for such a plate.
+PictureFormat straight_alpha_format(const PictureFormat& plate);
 
 /// A frame with the number and times of `plate` that shows the layer on nothing, with straight alpha.
 Frame straight_alpha_frame(const Frame& plate, const passes::Layer& layer, double opacity, FramePool& pool);

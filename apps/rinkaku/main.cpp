@@ -82,7 +82,8 @@ struct CommandLine {
                     "Video file, image pattern such as out/%04d.png, or - for standard output (see --format)");
     sub->add_option("--frames", c.frames,
                     "Only the frames A:B, counted from 0, B not included; A: and :B are fine too");
-    sub->add_option("--layers", c.layers, "Folder for the CG layer of each frame: PNG with straight alpha");
+    sub->add_option("--layers", c.layers,
+                    "Folder for each layer of each frame: plate, mattes, CG with straight alpha; PNG");
     sub->add_option("--timings", c.timings, "File for each stage's times (JSON)");
     sub->add_option("--codec", c.codec,
                     "Encoder: h264, mpeg4, ffv1, ffvhuff, or any name FFmpeg knows; else by the ending");

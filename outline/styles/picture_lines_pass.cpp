@@ -53,7 +53,7 @@ PictureLinesPass::PictureLinesPass(passes::DrawnObject& object, passes::ObjectPa
   glProgramUniform1f(find, find_.uniform("depth_step_m"), options.depth_step_m);
   glProgramUniform1f(find, find_.uniform("cos_normal"), std::cos(glm::radians(options.normal_deg)));
   glProgramUniform1f(find, find_.uniform("contrast"), options.contrast);
-  glProgramUniform1f(find, find_.uniform("near_m"), static_cast<float>(passes::near_m));
+  near_m_ = find_.uniform("near_m");
   glProgramUniform1i(spread_.name(), spread_.uniform("edges"), 0);
   glProgramUniform1i(draw, draw_.uniform("lines"), 0);
   glProgramUniform1i(draw, draw_.uniform("surface_depth"), 1);
@@ -74,6 +74,7 @@ void PictureLinesPass::find(const passes::DrawCall& call, const passes::PixelRec
   surface_.draw(object_, call, rect, &body_);
   edges_.begin(rect.width_px, rect.height_px);
   glUseProgram(find_.name());
+  glUniform1f(near_m_, call.near_m);
   glBindTextureUnit(0, surface_.colour());
   glBindTextureUnit(1, surface_.depth());
   glBindVertexArray(no_vertices_.name());

@@ -55,6 +55,7 @@ class PictureLinesPass : public passes::ObjectPass {
   gl::Program find_, spread_, draw_;
   gl::VertexArrayHandle no_vertices_;
   GLint size_px_ = -1, reach_px_ = -1, radius_px_ = -1, origin_ = -1, strength_ = -1;
+  GLint near_m_ = -1;
 };
 
 }  // namespace rinkaku::outline

@@ -80,7 +80,7 @@ StrokePass::StrokePass(passes::DrawnObject& object, const mesh::Mesh& mesh, cons
   glProgramUniform1i(name, program_.uniform("outside"), options.outside ? 1 : 0);
   glProgramUniform4f(name, program_.uniform("strokes"), options.stroke_px, options.gap, options.pressure,
                      options.dryness);
-  glProgramUniform1f(name, program_.uniform("near_m"), static_cast<float>(passes::near_m));
+  near_m_ = program_.uniform("near_m");
   glProgramUniform1f(name, program_.uniform("brush_px"), options.brush_px);
   constexpr float dash_px = 8;
   glProgramUniform1f(name, program_.uniform("dash_px"), options.only_hidden ? dash_px : 0);
@@ -226,6 +226,7 @@ void StrokePass::draw_edges(const passes::DrawCall& call) {
   glBindVertexArray(array_.name());
   glUseProgram(program_.name());
   glUniformMatrix4fv(clip_from_object_, 1, GL_FALSE, glm::value_ptr(call.clip_from_object));
+  glUniform1f(near_m_, call.near_m);
   glUniform2f(viewport_px_, call.viewport_px.x, call.viewport_px.y);
   glUniform2i(origin_, rect.x_px - call.rect.x_px - SurfaceBuffer::kMargin,
               rect.y_px - call.rect.y_px - SurfaceBuffer::kMargin);

@@ -105,6 +105,7 @@ class StrokePass : public passes::ObjectPass {
   gl::StreamBuffer vertex_buffer_, index_buffer_;
   gl::VertexArrayHandle array_;
   GLint clip_from_object_ = -1, viewport_px_ = -1, origin_ = -1, last_pixel_ = -1, opaque_ = -1, thickness_m_ = -1;
+  GLint near_m_ = -1;
 };
 
 }  // namespace rinkaku::outline

@@ -30,7 +30,7 @@ int rounded(int px) { return (px + 127) / 128 * 128; }
 
 Target::Target(Kind kind) : kind_(kind), framebuffer_(create_framebuffer()) { ++counters().targets; }
 
-void Target::begin(int width_px, int height_px) {
+void Target::begin(int width_px, int height_px, double depth) {
   if (width_px > width_px_ || height_px > height_px_) {
     GLint most = 0;
     glGetIntegerv(GL_MAX_RENDERBUFFER_SIZE, &most);
@@ -56,7 +56,7 @@ void Target::begin(int width_px, int height_px) {
   glViewport(0, 0, width_px, height_px);
   glDepthMask(GL_TRUE);
   glClearColor(0, 0, 0, 0);
-  glClearDepth(0);
+  glClearDepth(depth);
   glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
 }
 

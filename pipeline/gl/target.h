@@ -16,9 +16,9 @@ class Target {
   explicit Target(Kind kind = Kind::Picture);
 
   /// Binds the target with a viewport of width x height at its origin, cleared to nothing: colour 0, depth 0 (depth is
-  /// reversed: 1 at the near plane, 0 infinitely far). Throws Error (Runtime) if the driver does not draw pictures of
-  /// this size.
-  void begin(int width_px, int height_px);
+  /// reversed: 1 at the near plane, 0 infinitely far), or `depth`. Throws Error (Runtime) if the driver does not draw
+  /// pictures of this size.
+  void begin(int width_px, int height_px, double depth = 0);
 
   /// Copies the viewport's pixels to `pixels`: width * height times 4 bytes (Picture) or 1 (Matte), the row of window
   /// y = 0 first. Waits for drawing to end.

@@ -1,7 +1,9 @@
 #include "pipeline/passes/layer_renderer.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
+#include <limits>
 
 #include <glm/matrix.hpp>
 
@@ -12,6 +14,9 @@ PixelRect grown(const PixelRect& rect, int by_px) {
   return {rect.x_px - by_px, rect.y_px - by_px, rect.width_px + 2 * by_px, rect.height_px + 2 * by_px};
 }
 
+// Clamped, what lies before the near plane isn't cut off but hides everything.
+void clamp_depth(bool on) { (on ? glEnable : glDisable)(GL_DEPTH_CLAMP); }
+
 }  // namespace
 
 LayerRenderer::LayerRenderer(std::vector<StyledObject> objects, const PixelRect& picture)
@@ -20,13 +25,16 @@ LayerRenderer::LayerRenderer(std::vector<StyledObject> objects, const PixelRect&
 DrawCall LayerRenderer::call_for(const View& view, const StyledObject& styled, const PixelRect& rect) const {
   const glm::dmat4& world_from_object = styled.object->shape().world_from_object();
   const glm::dmat4 camera_from_object = to_matrix(view.camera_from_world) * world_from_object;
-  return {view, glm::mat4(clip_from_view(view, rect) * camera_from_object), rect,
+  return {view,
+          glm::mat4(clip_from_view(view, rect) * camera_from_object),
+          rect,
           glm::vec2(rect.width_px, rect.height_px),
-          static_cast<float>(view.camera.fx_px * styled.object->shape().push_m())};
+          static_cast<float>(view.camera.fx_px * styled.object->shape().push_m()),
+          static_cast<float>(view.nearest_m)};
 }
 
-PixelRect LayerRenderer::look_at_objects(const View& view, const PixelRect& picture) {
-  PixelRect covered;
+// Finds what is in the picture, nearest first.
+void LayerRenderer::look_at_objects(const View& view, const PixelRect& picture) {
   visible_.clear();
   for (StyledObject& styled : objects_) {
     const Look& look = styled.object->look(view, picture);
@@ -38,41 +46,54 @@ PixelRect LayerRenderer::look_at_objects(const View& view, const PixelRect& pict
       leaves_colour = leaves_colour || pass->leaves_colour();
     }
     const PixelRect rect = intersection(grown(look.bounds, static_cast<int>(std::ceil(reach)) + 1), picture);
-    if (rect.empty()) continue;
-    if (leaves_colour) covered = united(covered, rect);
-    visible_.push_back({&styled, look.distance_m});
+    if (!rect.empty()) visible_.push_back({&styled, &look, rect, leaves_colour, false});
   }
   std::stable_sort(visible_.begin(), visible_.end(),
-                   [](const Visible& a, const Visible& b) { return a.distance_m < b.distance_m; });
-  return covered;
+                   [](const Visible& a, const Visible& b) { return a.look->distance_m < b.look->distance_m; });
 }
 
-void LayerRenderer::begin(const PixelRect& rect) {
-  target_.begin(rect.width_px, rect.height_px);
+PixelRect LayerRenderer::covered(const Slice& slice) const {
+  PixelRect rect;
+  for (const Visible& v : visible_) {
+    if (v.leaves_colour && slice.holds(v)) rect = united(rect, v.rect);
+  }
+  return rect;
+}
+
+void LayerRenderer::begin(const PixelRect& rect, const Slice& slice) {
+  // Depth is near / Z, and greater depth wins: cleared to the far cut's, it keeps out what lies behind.
+  target_.begin(rect.width_px, rect.height_px, slice.near_m / slice.far_m);
   glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
   glEnable(GL_DEPTH_TEST);
   glDepthFunc(GL_GEQUAL);
   glDisable(GL_BLEND);
 }
 
-void LayerRenderer::draw_surfaces(const View& view, const PixelRect& rect) {
+void LayerRenderer::draw_surfaces(const View& view, const PixelRect& rect, const Slice& slice) {
   for (Visible& v : visible_) {
-    v.styled->object->upload();
+    if (!slice.holds(v)) continue;
+    if (!v.uploaded) v.styled->object->upload();
+    v.uploaded = true;
     const DrawCall call = call_for(view, *v.styled, rect);
+    clamp_depth(!v.leaves_colour);
     for (auto& pass : v.styled->passes) pass->draw_surface(call);
   }
+  clamp_depth(false);
   glDisable(GL_CULL_FACE);
   glEnable(GL_BLEND);
   glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
 }
 
-void LayerRenderer::draw_edges(const View& view, const PixelRect& rect) {
+void LayerRenderer::draw_edges(const View& view, const PixelRect& rect, const Slice& slice) {
   glDepthMask(GL_FALSE);
   for (auto v = visible_.rbegin(); v != visible_.rend(); ++v) {
+    if (!slice.holds(*v)) continue;
     const DrawCall call = call_for(view, *v->styled, rect);
+    clamp_depth(!v->leaves_colour);
     // The last pass (a line) lies behind the first (the body).
     for (auto pass = v->styled->passes.rbegin(); pass != v->styled->passes.rend(); ++pass) (*pass)->draw_edges(call);
   }
+  clamp_depth(false);
 }
 
 void LayerRenderer::read(Layer& layer) {
@@ -80,27 +101,43 @@ void LayerRenderer::read(Layer& layer) {
   target_.read(layer.rect.width_px, layer.rect.height_px, layer.rgba.data());
 }
 
-bool LayerRenderer::draw(const View& view, Layer& layer) {
-  layer.rect = {};
-  for (auto& pass : scene_passes_) layer.rect = united(layer.rect, pass->look(view, picture_));
-  layer.rect = united(layer.rect, look_at_objects(view, picture_));
+bool LayerRenderer::draw(const View& view, std::span<const double> cuts_m, std::span<Layer> layers) {
+  assert(layers.size() == cuts_m.size() + 1);
+  PixelRect scene_rect;
+  for (auto& pass : scene_passes_) scene_rect = united(scene_rect, pass->look(view, picture_));
+  look_at_objects(view, picture_);
+  bool drawn = false;
+  for (std::size_t i = 0; i < layers.size(); ++i) {
+    const Slice slice{i == 0 ? near_m : std::max(near_m, cuts_m[i - 1]),
+                      i < cuts_m.size() ? cuts_m[i] : std::numeric_limits<double>::infinity()};
+    drawn = draw_slice(view, slice, scene_rect, layers[i]) || drawn;
+  }
+  return drawn;
+}
+
+bool LayerRenderer::draw_slice(const View& whole_view, const Slice& slice, const PixelRect& scene_rect, Layer& layer) {
+  layer.rect = united(scene_rect, covered(slice));
   if (layer.rect.empty()) return false;
+  View view = whole_view;
+  view.nearest_m = slice.near_m;
   for (auto& pass : scene_passes_) pass->draw_aside(view, layer.rect);
-  begin(layer.rect);
-  draw_surfaces(view, layer.rect);
+  begin(layer.rect, slice);
+  draw_surfaces(view, layer.rect, slice);
   for (auto& pass : scene_passes_) pass->draw(view, layer.rect);
-  draw_edges(view, layer.rect);
+  draw_edges(view, layer.rect, slice);
   for (auto& pass : scene_passes_) pass->draw_over(view, layer.rect);
   read(layer);
   return true;
 }
 
 bool LayerRenderer::draw_objects(const View& view, const PixelRect& picture, Layer& layer) {
-  layer.rect = look_at_objects(view, picture);
+  constexpr Slice all{near_m, std::numeric_limits<double>::infinity()};
+  look_at_objects(view, picture);
+  layer.rect = covered(all);
   if (layer.rect.empty()) return false;
-  begin(layer.rect);
-  draw_surfaces(view, layer.rect);
-  draw_edges(view, layer.rect);
+  begin(layer.rect, all);
+  draw_surfaces(view, layer.rect, all);
+  draw_edges(view, layer.rect, all);
   read(layer);
   return true;
 }

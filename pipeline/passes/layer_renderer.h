@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -32,19 +33,39 @@ class LayerRenderer {
   void take_scene_passes(LayerRenderer& from) { std::swap(scene_passes_, from.scene_passes_); }
 
   /// Draws what `view` sees. Returns false, leaving `layer` empty, if no object is in the picture.
-  bool draw(const View& view, Layer& layer);
+  bool draw(const View& view, Layer& layer) { return draw(view, {}, {&layer, 1}); }
+
+  /// Draws what `view` sees in slices of depth: layers[0] what is nearer than cuts_m[0], layers[1] what lies from there
+  /// to cuts_m[1], and so on, one layer more than cuts. Cuts are in metres along the camera's axis, not falling. A
+  /// surface that passes through a cut is in both layers, each having the part on its side. An object costs once for
+  /// each slice that it reaches into.
+  bool draw(const View& view, std::span<const double> cuts_m, std::span<Layer> layers);
   /// Draws the objects alone, into another picture: what a mirror shows.
   bool draw_objects(const View& view, const PixelRect& picture, Layer& layer);
 
  private:
   struct Visible {
     StyledObject* styled;
-    double distance_m;
+    const Look* look;
+    PixelRect rect;
+    bool leaves_colour;
+    bool uploaded;
   };
-  PixelRect look_at_objects(const View& view, const PixelRect& picture);
-  void begin(const PixelRect& rect);
-  void draw_surfaces(const View& view, const PixelRect& rect);
-  void draw_edges(const View& view, const PixelRect& rect);
+  struct Slice {
+    double near_m;
+    double far_m;
+    // What only takes away also does so in all slices behind it.
+    bool holds(const Visible& v) const {
+      return v.look->nearest_m < far_m && (!v.leaves_colour || v.look->farthest_m > near_m);
+    }
+  };
+  void look_at_objects(const View& view, const PixelRect& picture);
+  /// The rectangle of all that leaves colour in the slice.
+  PixelRect covered(const Slice& slice) const;
+  bool draw_slice(const View& view, const Slice& slice, const PixelRect& scene_rect, Layer& layer);
+  void begin(const PixelRect& rect, const Slice& slice);
+  void draw_surfaces(const View& view, const PixelRect& rect, const Slice& slice);
+  void draw_edges(const View& view, const PixelRect& rect, const Slice& slice);
   void read(Layer& layer);
   DrawCall call_for(const View& view, const StyledObject& styled, const PixelRect& rect) const;
 

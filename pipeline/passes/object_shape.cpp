@@ -269,6 +269,7 @@ void ObjectShape::find_bounds(const glm::mat4& to_pixels, const PixelRect& pictu
   }
   if (!(farthest > near_m)) return;  // behind the camera, or no point at all
   look_.nearest_m = nearest;
+  look_.farthest_m = farthest;
   look_.crosses_eye_plane = !(nearest > near_m);
   if (look_.crosses_eye_plane) {
     look_.bounds = picture;

@@ -39,6 +39,7 @@ struct Look {
   bool visible = false;
   PixelRect bounds;                ///< of the mesh itself in the pinhole picture, whole pixels; passes reach further
   double nearest_m = 0;            ///< the mesh's least depth, along the camera's axis
+  double farthest_m = 0;           ///< the mesh's greatest
   double distance_m = 0;           ///< from the eye to the object's centre, for the order of drawing
   bool crosses_eye_plane = false;  ///< then bounds is the whole picture and screen positions are meaningless
   /// By how much the contour of what is drawn may miss the whole mesh's: what is drawn along the contour must reach so

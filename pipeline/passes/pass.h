@@ -15,6 +15,7 @@ struct DrawCall {
   PixelRect rect;              ///< what is drawn of the pinhole picture; it fills the viewport
   glm::vec2 viewport_px;
   float focal_px = 0;  ///< pixels that an outline normal of length 1 takes at a distance of 1 m
+  float near_m = static_cast<float>(passes::near_m);  ///< of clip_from_object: depth is this, divided by Z
 };
 
 /// One way of drawing an object: its shading, its outline, ... An object has a list of them.

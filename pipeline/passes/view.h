@@ -11,6 +11,9 @@
 
 namespace rinkaku::passes {
 
+/// Nearer than this nothing is drawn.
+inline constexpr double near_m = 1e-5;
+
 /// What a frame's CG is seen through, and when. Its lens distortion is not applied here but by LensMap.
 struct View {
   CameraModel camera;
@@ -19,6 +22,7 @@ struct View {
   /// For a mirror's eye, which lies behind the mirror: the mirror's plane (normal, offset) in the world. Only what lies
   /// before it, where normal * point + offset > 0, is seen; the eye must lie behind.
   std::optional<glm::dvec4> mirror{};
+  double nearest_m = near_m;  ///< the near plane, along the camera's axis
 };
 
 /// The one place where OpenCV's camera (+z forward, y down, pixel centres at whole numbers) becomes GL's clip space.
@@ -27,12 +31,11 @@ struct View {
 /// gives rows from the top. Depth is reversed and infinite: near_m / Z, 1 at the near plane and 0 infinitely far, for
 /// glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE), depth function GL_GEQUAL and a float depth buffer; resolution is then
 /// about 1e-7 of the distance everywhere. Clip w is the depth Z in metres.
-glm::dmat4 clip_from_camera(const CameraModel& camera, const PixelRect& rect);
+///
+/// `near` in place of near_m puts the near plane farther away; depth is then near / Z likewise.
+glm::dmat4 clip_from_camera(const CameraModel& camera, const PixelRect& rect, double near = near_m);
 
 /// The same for a view; what lies behind its mirror is nearer than the near plane, which is the mirror's.
 glm::dmat4 clip_from_view(const View& view, const PixelRect& rect);
-
-/// Nearer than this nothing is drawn.
-inline constexpr double near_m = 1e-5;
 
 }  // namespace rinkaku::passes

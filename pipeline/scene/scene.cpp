@@ -9,9 +9,10 @@ namespace {
 namespace fs = std::filesystem;
 
 toml::Schema scene_schema() {
-  toml::Schema schema = {{.path = "", .keys = {"plate", "track", "light", "object", "water", "output"}}};
-  for (const toml::Schema& section :
-       {plate_schema(), track_schema(), light_schema(), object_schema(), water_schema(), output_schema()}) {
+  toml::Schema schema = {
+      {.path = "", .keys = {"plate", "track", "light", "background", "foreground", "object", "water", "output"}}};
+  for (const toml::Schema& section : {plate_schema(), track_schema(), light_schema(), background_schema(),
+                                      foreground_schema(), object_schema(), water_schema(), output_schema()}) {
     schema.insert(schema.end(), section.begin(), section.end());
   }
   return schema;
@@ -39,6 +40,24 @@ Scene read(const toml::Document& document, const SceneOptions& options) {
   scene.plate = read_plate(*root.table("plate"), {options.input, options.device});
   if (const auto track = root.table("track")) scene.track = read_track(*track);
   if (const auto light = root.table("light")) scene.light = read_light(*light);
+  for (const toml::Table& table : root.tables("foreground")) {
+    scene.foregrounds.push_back(read_foreground(table));
+    const ForegroundScene& foreground = scene.foregrounds.back();
+    if (foreground.on_ground && (!scene.track || scene.plate.camera.empty())) {
+      throw table.error_at("on_ground", "needs to know where the camera is", "add [track], and 'camera' to [plate]");
+    }
+    if (!foreground.on_ground && !foreground.distance_m && root.has("object")) {
+      throw table.error("[[foreground]] must say how far away it is, so that CG goes before or behind it",
+                        "add distance_m = METRES, or on_ground = true if it stands on the world's z = 0");
+    }
+  }
+  if (const auto background = root.table("background")) {
+    if (scene.foregrounds.empty()) {
+      throw background->error("[background] needs a [[foreground]]: nothing of the plate would be left",
+                              "add one with the matte of what is to be kept");
+    }
+    scene.background = read_background(*background);
+  }
   for (const toml::Table& object : root.tables("object")) {
     require_camera(scene, object, "[[object]]");
     scene.objects.push_back(read_object(object));

@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "pipeline/scene/background.h"
+#include "pipeline/scene/foreground.h"
 #include "pipeline/scene/light.h"
 #include "pipeline/scene/object.h"
 #include "pipeline/scene/output.h"
@@ -22,6 +24,8 @@ struct Scene {
   PlateScene plate;
   std::optional<TrackScene> track;
   LightScene light;
+  std::optional<BackgroundScene> background;  ///< in the plate's place
+  std::vector<ForegroundScene> foregrounds;
   std::vector<ObjectScene> objects;
   std::optional<WaterScene> water;
   OutputScene output;

@@ -62,6 +62,8 @@ class Source {
 struct OpenOptions {
   int threads = 0;             ///< decoder threads, 0 for as many as there are cores
   Rational image_rate{25, 1};  ///< frames per second of an image sequence, which carries no times
+  /// Frames are converted to this format and scaled to its size.
+  std::optional<PictureFormat> convert_to{};
 };
 
 /// Opens a video file (anything the FFmpeg libraries decode) or an image sequence, told apart by the name: a printf

@@ -47,6 +47,11 @@ VideoSource::VideoSource(Input input, const OpenOptions& options)
     throw input_error(input_.name, "no picture of it can be decoded: " + why, "check that the file is whole");
   }
   describe(*first_);
+  if (options.convert_to) {
+    description_.format = *options.convert_to;
+    description_.notice.clear();
+    always_convert_ = true;
+  }
 }
 
 void VideoSource::describe(const AVFrame& first) {
@@ -57,6 +62,8 @@ void VideoSource::describe(const AVFrame& first) {
     throw input_error(input_.name, "its pixel format is unknown", "convert it to another pixel format");
   }
   description_.name = input_.name;
+  stored_width_px_ = first.width;
+  stored_height_px_ = first.height;
   description_.format.width_px = first.width;
   description_.format.height_px = first.height;
   description_.format.pixels = ffmpeg::to_pixel_format(format);
@@ -171,7 +178,7 @@ void VideoSource::end_of_file(int code) {
 Frame VideoSource::deliver(ffmpeg::FramePtr picture) {
   const PictureFormat& format = description_.format;
   const bool alike =
-      picture->width == format.width_px && picture->height == format.height_px && picture->format == stored_format_;
+      picture->width == stored_width_px_ && picture->height == stored_height_px_ && picture->format == stored_format_;
   if (!alike) ++damage_.resized;
   Frame header;
   stamp(header, *picture);

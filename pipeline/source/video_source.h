@@ -46,6 +46,7 @@ class VideoSource final : public Source {
   Description description_;
   std::optional<ffmpeg::Converter> converter_;
   AVPixelFormat stored_format_ = AV_PIX_FMT_NONE;  ///< of the first picture, as decoded
+  int stored_width_px_ = 0, stored_height_px_ = 0;
   bool always_convert_ = false;
   bool draining_ = false;
   bool container_interlaced_ = false;

@@ -11,7 +11,7 @@
 
 #include "embedded/plate.frag.h"
 #include "embedded/plate.vert.h"
-#include "pipeline/passes/composite/colour_matrix.h"
+#include "pipeline/frame/colour_matrix.h"
 
 namespace rinkaku::window {
 namespace {
@@ -33,7 +33,7 @@ struct FromCode {
 };
 
 FromCode from_code(const PictureFormat& format) {
-  const auto weights = passes::component_weights(format);
+  const auto weights = component_weights(format);
   FromCode result;
   if (format.pixels.model == ColourModel::Grey) {
     const float range = weights[0].red + weights[0].green + weights[0].blue;

@@ -7,15 +7,15 @@
 #include "pipeline/ffmpeg/converter.h"
 #include "pipeline/ffmpeg/formats.h"
 #include "pipeline/ffmpeg/frames.h"
-#include "pipeline/passes/composite/colour_matrix.h"
+#include "pipeline/frame/colour_matrix.h"
 
 namespace rinkaku::window {
 namespace {
 
 // libyuv's constants with U and V exchanged make R G B A of what it calls ARGB; null for a matrix that it hasn't.
 const libyuv::YuvConstants* constants_for(const PictureFormat& format) {
-  const bool full = passes::is_full_range(format);
-  switch (passes::effective_matrix(format)) {
+  const bool full = is_full_range(format);
+  switch (effective_matrix(format)) {
     case 1:
       return full ? &libyuv::kYvuF709Constants : &libyuv::kYvuH709Constants;
     case 5:

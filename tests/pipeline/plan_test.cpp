@@ -335,5 +335,29 @@ TEST(PlanDot, IsTakenByGraphviz) {
   EXPECT_EQ(::pclose(pipe), 0);
 }
 
+TEST(Plan, MattesAreFoundOnlyWhereSomethingReadsThem) {
+  Scene scene = drawn_scene();
+  for (const char* name : {"matte", "background", "merge"}) EXPECT_FALSE(plan_of(scene).runs(name)) << name;
+  scene.foregrounds.emplace_back();
+  scene.foregrounds[0].name = "man";
+  EXPECT_TRUE(plan_of(scene).runs("matte"));
+  EXPECT_TRUE(plan_of(scene).runs("merge"));
+  EXPECT_EQ(stage(plan_of(scene), "matte").why, "mattes are found of man");
+  scene.objects.clear();
+  EXPECT_FALSE(plan_of(scene).runs("matte"));
+  EXPECT_EQ(stage(plan_of(scene), "matte").why, "nothing that runs reads it");
+  EXPECT_TRUE(plan_of(scene, pinhole(), {.layers = true, .no_streams_because = {}}).runs("matte"));
+}
+
+TEST(Plan, WorldInThePlatesPlaceNeedsNoObjectAndNoOpenGl) {
+  Scene scene = empty_scene();
+  scene.foregrounds.emplace_back();
+  scene.background.emplace();
+  scene.background->colour = {0, 0, 0};
+  const Plan plan = plan_of(scene);
+  for (const char* name : {"matte", "background", "merge", "composite"}) EXPECT_TRUE(plan.runs(name)) << name;
+  EXPECT_FALSE(plan.runs("draw"));
+}
+
 }  // namespace
 }  // namespace rinkaku::pipeline

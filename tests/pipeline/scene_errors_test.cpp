@@ -77,10 +77,11 @@ INSTANTIATE_TEST_SUITE_P(
             "crease_deg, "
             "fluffy, height_m, holdout, mesh, name, outline, position_m, regions, rotation_deg, scale, toon and up"},
         BadScene{"TableOfALaterVersion", object + "[fog]\n",
-                 "DIR/scene.toml:8:2: unknown key 'fog'; known keys are light, object, output, plate, track and water"},
-        BadScene{"TablesOfALaterVersion", object + "[[foreground]]\nname = \"x\"\n",
-                 "DIR/scene.toml:8:3: unknown key 'foreground'; known keys are light, object, output, plate, track and "
-                 "water"},
+                 "DIR/scene.toml:8:2: unknown key 'fog'; known keys are background, foreground, light, object, output, "
+                 "plate, track and water"},
+        BadScene{"TablesOfALaterVersion", object + "[[crowd]]\nname = \"x\"\n",
+                 "DIR/scene.toml:8:3: unknown key 'crowd'; known keys are background, foreground, light, object, "
+                 "output, plate, track and water"},
         BadScene{"CameraAndRecording", "[plate]\ndevice = \"/dev/video0\"\nvideo = \"a.mp4\"\n",
                  "DIR/scene.toml:3:9: 'video' in [plate] can't stand beside 'device'; keep one of them"},
         BadScene{"CameraKeyOfARecording", "[plate]\nvideo = \"a.mp4\"\nsize_px = [640, 480]\n",
@@ -399,6 +400,40 @@ TEST(Nearest, CountsEditsAndSwaps) {
   EXPECT_EQ(toml::nearest("water", words), "");
   EXPECT_EQ(toml::nearest("", words), "");
 }
+
+INSTANTIATE_TEST_SUITE_P(
+    Foreground, BadSceneTest,
+    testing::Values(
+        BadScene{"ForegroundWithoutMethod", plate + "[[foreground]]\nname = \"x\"\n",
+                 "DIR/scene.toml:4:1: 'method' in [[foreground]] is missing"},
+        BadScene{
+            "UnknownMethod", plate + "[[foreground]]\nmethod = \"magic\"\n",
+            "DIR/scene.toml:5:10: 'method' in [[foreground]] must be \"chroma\", \"difference\" or \"file\", found "
+            "the text \"magic\""},
+        BadScene{"MethodTwice", plate + "[[foreground]]\nmethod = [\"chroma\", \"chroma\"]\n",
+                 "DIR/scene.toml:5:10: 'method' in [[foreground]] names 'chroma' twice; leave one out"},
+        BadScene{
+            "TableOfAnotherMethod", plate + "[[foreground]]\nmethod = \"chroma\"\ndifference = { threshold = 3 }\n",
+            "DIR/scene.toml:6:14: 'difference' in [[foreground]] isn't among the methods; leave it out, or add it to "
+            "'method'"},
+        BadScene{"CombineOfOne", plate + "[[foreground]]\nmethod = \"chroma\"\ncombine = \"minimum\"\n",
+                 "DIR/scene.toml:6:11: 'combine' in [[foreground]] needs several methods; leave it out"},
+        BadScene{
+            "NoDistanceBesideAnObject",
+            tracked + "[[foreground]]\nmethod = \"chroma\"\n[[object]]\nmesh = \"cow.obj\"\n",
+            "DIR/scene.toml:6:1: [[foreground]] must say how far away it is, so that CG goes before or behind it; add "
+            "distance_m = METRES, or on_ground = true if it stands on the world's z = 0"},
+        BadScene{
+            "OnGroundWithoutCamera", plate + "[[foreground]]\nmethod = \"chroma\"\non_ground = true\n",
+            "DIR/scene.toml:6:13: 'on_ground' in [[foreground]] needs to know where the camera is; add [track], and "
+            "'camera' to [plate]"},
+        BadScene{"RectangleOfThree", plate + "[[foreground]]\nmethod = \"chroma\"\nwithin_px = [1, 2, 3]\n",
+                 "DIR/scene.toml:6:13: 'within_px' in [[foreground]] must be a rectangle [left, top, width, height] in "
+                 "whole pixels, found an array of 3"},
+        BadScene{"BackgroundAlone", plate + "[background]\ncolour = \"#ffffff\"\n",
+                 "DIR/scene.toml:4:1: [background] needs a [[foreground]]: nothing of the plate would be left; add one "
+                 "with the matte of what is to be kept"}),
+    test_name);
 
 }  // namespace
 }  // namespace rinkaku::pipeline

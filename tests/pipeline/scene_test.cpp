@@ -295,5 +295,31 @@ TEST(Scene, TheCallsInputReplacesThePlates) {
   EXPECT_EQ(relative, (std::filesystem::current_path() / "b.mp4").string());
 }
 
+TEST(SceneFile, ForegroundSaysHowItsMatteIsFoundAndHowFarAwayItIs) {
+  const SceneFolder folder;
+  const Scene scene =
+      folder.read(tracked +
+                  "[background]\ncolour = \"#ff8000\"\n"
+                  "[[foreground]]\nname = \"man\"\nmethod = [\"chroma\", \"difference\"]\n"
+                  "combine = \"minimum\"\nchroma = { key = \"#00ff00\", hue_deg = 40 }\n"
+                  "difference = { clean = \"a.mp4\", threshold = 4 }\ndistance_m = 2.5\n"
+                  "within_px = [1, 2, 30, 40]\n"
+                  "[[foreground]]\nmethod = \"file\"\nfile = { images = \"m/%d.png\" }\non_ground = true\n");
+  ASSERT_EQ(scene.foregrounds.size(), 2u);
+  const ForegroundScene& man = scene.foregrounds[0];
+  EXPECT_EQ(man.name, "man");
+  ASSERT_EQ(man.methods.size(), 2u);
+  EXPECT_EQ(std::get<matte::ChromaOptions>(man.methods[0]).hue_deg, 40);
+  EXPECT_EQ((*std::get<matte::ChromaOptions>(man.methods[0]).key)[1], 1);
+  EXPECT_EQ(std::get<DifferenceMatteScene>(man.methods[1]).options.threshold, 4);
+  EXPECT_EQ(std::get<DifferenceMatteScene>(man.methods[1]).clean, (folder / "a.mp4").string());
+  EXPECT_EQ(man.options.combine, matte::ForegroundOptions::Combine::Minimum);
+  EXPECT_EQ(man.options.within, (PixelRect{1, 2, 30, 40}));
+  EXPECT_EQ(man.distance_m, 2.5);
+  EXPECT_TRUE(scene.foregrounds[1].on_ground);
+  EXPECT_EQ(std::get<FileMatteScene>(scene.foregrounds[1].methods[0]).input, (folder / "m/%d.png").string());
+  EXPECT_EQ((*scene.background->colour)[0], 1);
+}
+
 }  // namespace
 }  // namespace rinkaku::pipeline

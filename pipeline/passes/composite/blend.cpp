@@ -7,7 +7,7 @@
 #include <cstring>
 #include <utility>
 
-#include "pipeline/passes/composite/colour_matrix.h"
+#include "pipeline/frame/colour_matrix.h"
 
 namespace rinkaku::passes {
 namespace {

@@ -4,7 +4,7 @@
 
 #include "pipeline/frame/picture_format.h"
 
-namespace rinkaku::passes {
+namespace rinkaku {
 
 /// What one component of a premultiplied colour is, in the picture's own code values:
 /// red * R + green * G + blue * B + alpha * A with R, G, B, A in 0..255 (the alpha term carries the offset, so that the
@@ -24,4 +24,4 @@ std::array<ComponentWeights, 4> component_weights(const PictureFormat& format);
 int effective_matrix(const PictureFormat& format);
 bool is_full_range(const PictureFormat& format);
 
-}  // namespace rinkaku::passes
+}  // namespace rinkaku

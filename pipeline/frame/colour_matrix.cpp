@@ -1,8 +1,8 @@
-#include "pipeline/passes/composite/colour_matrix.h"
+#include "pipeline/frame/colour_matrix.h"
 
 #include <utility>
 
-namespace rinkaku::passes {
+namespace rinkaku {
 namespace {
 
 // Luma coefficients of red and blue, H.273 table 4.
@@ -87,4 +87,4 @@ std::array<ComponentWeights, 4> component_weights(const PictureFormat& format) {
   return weights;
 }
 
-}  // namespace rinkaku::passes
+}  // namespace rinkaku

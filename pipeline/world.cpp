@@ -1,0 +1,66 @@
+#include "pipeline/world.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+#include "pipeline/frame/error.h"
+#include "pipeline/passes/composite/straight_alpha.h"
+
+namespace rinkaku::pipeline {
+namespace {
+
+void fill(passes::Layer& layer, const std::array<double, 3>& colour) {
+  std::uint8_t rgba[4] = {0, 0, 0, 255};
+  for (std::size_t c = 0; c < 3; ++c) rgba[c] = static_cast<std::uint8_t>(std::lround(colour[c] * 255));
+  for (std::size_t i = 0; i < layer.rgba.size(); i += 4) std::memcpy(layer.rgba.data() + i, rgba, 4);
+}
+
+}  // namespace
+
+World::World(const BackgroundScene& scene, const source::Description& plate) : input_(scene.input) {
+  const PictureFormat& format = plate.format;
+  picture_.rect = {0, 0, format.width_px, format.height_px};
+  picture_.rgba.resize(static_cast<std::size_t>(format.width_px) * format.height_px * 4);
+  if (scene.colour) {
+    fill(picture_, *scene.colour);
+    return;
+  }
+  const PictureFormat own = source::open(input_)->description().format;
+  const double scale = std::max(static_cast<double>(format.width_px) / own.width_px,
+                                static_cast<double>(format.height_px) / own.height_px);
+  options_.convert_to =
+      passes::rgba_format(std::max(format.width_px, static_cast<int>(std::lround(own.width_px * scale))),
+                          std::max(format.height_px, static_cast<int>(std::lround(own.height_px * scale))), {1, 1});
+  open();
+  if (!read()) throw input_error(input_, "it holds no picture", "give another background");
+}
+
+void World::open() { source_ = source::open(input_, options_); }
+
+bool World::read() {
+  const std::optional<Frame> frame = source_->next();
+  if (!frame) return false;
+  const PixelRect& rect = picture_.rect;
+  const int left = (frame->format.width_px - rect.width_px) / 2, top = (frame->format.height_px - rect.height_px) / 2;
+  for (int y = 0; y < rect.height_px; ++y) {
+    std::uint8_t* out = picture_.rgba.data() + static_cast<std::size_t>(y) * rect.width_px * 4;
+    std::memcpy(out, frame->planes[0].data + (top + y) * frame->planes[0].stride_bytes + left * 4,
+                static_cast<std::size_t>(rect.width_px) * 4);
+    for (int x = 0; x < rect.width_px; ++x) out[4 * x + 3] = 255;
+  }
+  return true;
+}
+
+const passes::Layer& World::next() {
+  if (!source_ || shown_++ == 0) return picture_;
+  if (read()) {
+    moves_ = true;
+  } else if (moves_) {
+    open();
+    read();
+  }
+  return picture_;
+}
+
+}  // namespace rinkaku::pipeline

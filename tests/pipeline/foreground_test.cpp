@@ -1,0 +1,197 @@
+// CG before and behind what was filmed: the whole way of a frame, with mattes.
+#include <algorithm>
+#include <set>
+
+#include "tests/pipeline/shot_folder.h"
+
+namespace rinkaku::pipeline {
+namespace {
+
+using test::ShotFolder;
+
+const PictureFormat small = test::picture("yuv420p", 64, 48, test::bt709_limited);
+const PictureFormat grey = test::picture("gray", 64, 48, test::bt709_full);
+
+// Mattes of a bar 16 pixels wide in the middle of the picture, `alpha` everywhere in it.
+std::vector<Frame> bars(int count, int alpha, int bottom = 48) {
+  std::vector<Frame> frames = test::noise_frames(grey, count);
+  for (Frame& frame : frames) {
+    for (int y = 0; y < 48; ++y) {
+      std::uint8_t* row = frame.planes[0].data + y * frame.planes[0].stride_bytes;
+      std::fill_n(row, 64, std::uint8_t{0});
+      if (y < bottom) std::fill_n(row + 24, 16, static_cast<std::uint8_t>(alpha));
+    }
+  }
+  return frames;
+}
+
+void write_mattes(const ShotFolder& folder, const std::vector<Frame>& frames) {
+  test::write_all({.path = folder.file("mattes.mkv"), .codec = "ffv1"}, test::incoming(grey), frames);
+}
+
+std::string filmed(const std::string& where) {
+  return "[[foreground]]\nname = \"bar\"\nmethod = \"file\"\nfile = { video = \"mattes.mkv\" }\n" + where + "\n";
+}
+
+// A cube of 0.5 m, 1.5 m before the camera and filling most of the picture, seen along the world's y.
+const std::string camera = "[track]\nlocked = { position_m = [0, -1.5, 0.25], look_at_m = [0, 0, 0.25] }\n";
+
+// Which luma samples two frames differ in.
+std::set<std::pair<int, int>> changed(const Frame& a, const Frame& b) {
+  std::set<std::pair<int, int>> pixels;
+  for (int y = 0; y < 48; ++y) {
+    for (int x = 0; x < 64; ++x) {
+      if (test::sample(a, 0, x, y) != test::sample(b, 0, x, y)) pixels.insert({x, y});
+    }
+  }
+  return pixels;
+}
+
+bool in_bar(int x) { return x >= 24 && x < 40; }
+
+TEST(FilmedThings, CgGoesBehindWhatIsNearerAndBeforeWhatIsFarther) {
+  const ShotFolder folder;
+  const auto plate = folder.noise_clip("in.mkv", small, 3);
+  write_mattes(folder, bars(3, 255));
+  const auto rendered = [&](const std::string& foreground) {
+    folder.render(test::plate + camera + foreground + test::cube,
+                  {.output = "out.mkv", .codec = "ffv1", .overwrite = true});
+    return folder.frames("out.mkv");
+  };
+  const auto without = rendered(""), before = rendered(filmed("distance_m = 1")),
+             behind = rendered(filmed("distance_m = 3"));
+  int in_it = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_EQ(test::samples(behind[i]), test::samples(without[i]));
+    // The bar's own samples are the plate's to the last bit, chroma too; the rest is as without it.
+    for (int y = 0; y < 48; ++y) {
+      for (int x = 0; x < 64; ++x) {
+        const Frame& wish = in_bar(x) ? plate[i] : without[i];
+        ASSERT_EQ(test::sample(before[i], 0, x, y), test::sample(wish, 0, x, y)) << x << "," << y;
+        ASSERT_EQ(test::sample(before[i], 1, x / 2, y / 2), test::sample(wish, 1, x / 2, y / 2)) << x << "," << y;
+        in_it += in_bar(x) && test::sample(without[i], 0, x, y) != test::sample(plate[i], 0, x, y) ? 1 : 0;
+      }
+    }
+  }
+  EXPECT_GT(in_it, 500);  // the cube does go behind the bar
+}
+
+// Plate and matte of one frame travel together: a bar that jumps every frame.
+TEST(FilmedThings, MatteIsThatOfItsVeryFrame) {
+  const ShotFolder folder;
+  const auto plate = folder.noise_clip("in.mkv", small, 12);
+  std::vector<Frame> mattes = bars(12, 0);
+  for (std::size_t i = 0; i < mattes.size(); ++i) {
+    std::uint8_t* data = mattes[i].planes[0].data;
+    for (int y = 0; y < 48; ++y) {
+      std::fill_n(data + y * mattes[i].planes[0].stride_bytes + 4 * static_cast<int>(i), 16, std::uint8_t{255});
+    }
+  }
+  write_mattes(folder, mattes);
+  folder.render(test::plate + camera + filmed("distance_m = 1") + test::cube,
+                {.output = "out.mkv", .codec = "ffv1", .first_frame = 3});
+  const auto out = folder.frames("out.mkv");
+  ASSERT_EQ(out.size(), 9u);
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    for (const auto& [x, y] : changed(out[i], plate[i + 3])) {
+      const int left = 4 * (static_cast<int>(i) + 3);
+      ASSERT_FALSE(x >= left && x < left + 16) << "frame " << i + 3 << " " << x << "," << y;
+    }
+    EXPECT_GT(changed(out[i], plate[i + 3]).size(), 200u);
+  }
+}
+
+// Somebody walks towards the camera past a thin card of CG, standing on the ground: behind it until the feet pass it.
+TEST(FilmedThings, OrderFlipsOnceWhenSomebodyWalksFromBehindToBefore) {
+  const ShotFolder folder;
+  constexpr int frames = 24;
+  const auto plate = folder.noise_clip("in.mkv", small, frames);
+  // The camera is 0.25 m above the ground and looks straight ahead: a foot at depth d is seen 64 * 0.25 / d below the
+  // picture's middle. The lower edge of the bar moves from row 30 down to 41.5: from 2.46 m to 0.89 m.
+  std::vector<Frame> mattes = bars(frames, 0);
+  std::vector<double> depth_m;
+  for (int i = 0; i < frames; ++i) {
+    const int bottom = 30 + i / 2;
+    mattes[static_cast<std::size_t>(i)] = std::move(bars(1, 255, bottom)[0]);
+    mattes[static_cast<std::size_t>(i)].number = mattes[static_cast<std::size_t>(i)].pts = i;
+    depth_m.push_back(64 * 0.25 / (bottom - 0.5 - 23.5));
+  }
+  write_mattes(folder, mattes);
+  // A card 1.5 m before the camera.
+  folder.write("card.obj", "v -1 0 0\nv 1 0 0\nv 1 0 1\nv -1 0 1\nf 1 2 3 4\n");
+  const std::string card = "[[object]]\nmesh = \"card.obj\"\nup = \"z\"\nscale = 1\n";
+  folder.render(test::plate + camera + filmed("on_ground = true") + card, {.output = "out.mkv", .codec = "ffv1"});
+  const auto out = folder.frames("out.mkv");
+  int flips = 0;
+  bool was_before = false;
+  for (int i = 0; i < frames; ++i) {
+    const auto index = static_cast<std::size_t>(i);
+    const bool is_before = test::sample(out[index], 0, 32, 24) == test::sample(plate[index], 0, 32, 24) &&
+                           test::sample(out[index], 0, 33, 25) == test::sample(plate[index], 0, 33, 25);
+    if (i > 0 && is_before != was_before) ++flips;
+    was_before = is_before;
+    // Rows are whole, so the distance is known to a row only: in its two frames either order is right.
+    if (std::abs(depth_m[index] - 1.5) < 0.2) continue;
+    EXPECT_EQ(is_before, depth_m[index] < 1.5) << "frame " << i << " at " << depth_m[index];
+  }
+  EXPECT_EQ(flips, 1);
+}
+
+// Where the matte is 0 the world is seen, where it is 255 the plate's own samples, untouched.
+TEST(FilmedThings, StandInAWorldInThePlatesPlace) {
+  const ShotFolder folder;
+  const auto plate = folder.noise_clip("in.mkv", small, 2);
+  write_mattes(folder, bars(2, 255));
+  folder.render("[plate]\nvideo = \"in.mkv\"\n[background]\ncolour = \"#808080\"\n" + filmed(""),
+                {.output = "out.mkv", .codec = "ffv1"});
+  const auto out = folder.frames("out.mkv");
+  for (std::size_t i = 0; i < 2; ++i) {
+    for (int y = 0; y < 48; ++y) {
+      for (int x = 0; x < 64; ++x) {
+        // Grey of 128 in limited range: 16 + 219 * 128 / 255.
+        ASSERT_EQ(test::sample(out[i], 0, x, y), in_bar(x) ? test::sample(plate[i], 0, x, y) : 126) << x << "," << y;
+        ASSERT_EQ(test::sample(out[i], 1, x / 2, y / 2), in_bar(x) ? test::sample(plate[i], 1, x / 2, y / 2) : 128);
+      }
+    }
+  }
+}
+
+TEST(FilmedThings, LayersAreWrittenEachByItself) {
+  const ShotFolder folder;
+  const auto plate = folder.noise_clip("in.mkv", small, 2);
+  write_mattes(folder, bars(2, 200));
+  folder.render(test::plate + camera + filmed("distance_m = 1") + test::cube,
+                {.output = "out.mkv", .codec = "ffv1", .layers_folder = folder.file("layers")});
+  const auto mattes = folder.frames("layers/matte_bar_%06d.png");
+  ASSERT_EQ(mattes.size(), 2u);
+  EXPECT_EQ(test::sample(mattes[1], 0, 30, 20), 200);
+  EXPECT_EQ(test::sample(mattes[1], 0, 10, 20), 0);
+  EXPECT_EQ(folder.frames("layers/plate_%06d.png").size(), 2u);
+  // The whole cube lies behind the bar and is not cut.
+  EXPECT_EQ(test::sample(folder.frames("layers/cg-0_%06d.png")[0], 3, 32, 24), 0);
+  EXPECT_EQ(test::sample(folder.frames("layers/cg-1_%06d.png")[0], 3, 32, 24), 255);
+}
+
+TEST(FilmedThings, NothingRunsInASceneWithoutThem) {
+  const ShotFolder folder;
+  folder.noise_clip("in.mkv", small, 2);
+  const RenderReport report = folder.render(test::plate + camera + test::cube, {.output = "out.mkv", .codec = "ffv1"});
+  for (const StageReport& stage : report.stages) {
+    EXPECT_NE(stage.name, "matte");
+    EXPECT_NE(stage.name, "merge");
+  }
+}
+
+TEST(FilmedThings, MattesThatEndTooSoonEndTheRun) {
+  const ShotFolder folder;
+  folder.noise_clip("in.mkv", small, 5);
+  write_mattes(folder, bars(3, 255));
+  const std::string line = test::error_of(Error::Kind::Input, [&] {
+    folder.render(test::plate + camera + filmed("distance_m = 1") + test::cube, {.output = "out.mkv", .codec = "ffv1"});
+  });
+  EXPECT_NE(line.find("end before frame 3"), std::string::npos) << line;
+  EXPECT_FALSE(std::filesystem::exists(folder.file("out.mkv")));
+}
+
+}  // namespace
+}  // namespace rinkaku::pipeline
