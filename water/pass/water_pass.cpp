@@ -93,7 +93,7 @@ WaterPass::StrokeProgram WaterPass::stroke_program(int own_brushes) {
   StrokeProgram p;
   p.program = program("stroke", embedded::stroke_vert, embedded::stroke_frag,
                       own_brushes > 0 ? std::span(counts + own_brushes - 1, 1) : std::span<const std::string_view>());
-  glProgramUniform1f(p.program.name(), p.program.uniform("near_m"), static_cast<float>(passes::near_m));
+  p.near_m = p.program.uniform("near_m");
   p.rect_px = p.program.uniform("rect_px");
   p.size_px = p.program.uniform("size_px");
   return p;
@@ -144,13 +144,14 @@ passes::PixelRect WaterPass::look(const passes::View& view, const passes::PixelR
 }
 
 void WaterPass::draw_strokes(std::span<const Stroke> strokes, const StrokeProgram& with, const gl::TextureHandle& sheet,
-                             const passes::PixelRect& rect) {
+                             const passes::PixelRect& rect, double near_m) {
   if (strokes.empty()) return;
   stroke_buffer_.write(std::as_bytes(strokes));
   glVertexArrayVertexBuffer(stroke_array_.name(), 0, stroke_buffer_.name(), 0, sizeof(Stroke));
   glUseProgram(with.program.name());
   glUniform2f(with.rect_px, static_cast<float>(rect.x_px), static_cast<float>(rect.y_px));
   glUniform2f(with.size_px, static_cast<float>(rect.width_px), static_cast<float>(rect.height_px));
+  glUniform1f(with.near_m, static_cast<float>(near_m));
   glBindTextureUnit(0, sheet.name());
   glBindVertexArray(stroke_array_.name());
   glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, static_cast<GLsizei>(strokes.size()));
@@ -188,9 +189,9 @@ void WaterPass::draw_aside(const passes::View&, const passes::PixelRect& rect) {
   for (std::size_t i = 0; i < shown_.size(); ++i) {
     targets_[i]->begin(rect.width_px, rect.height_px);
     if (own_) {
-      draw_strokes(shown_[i].strokes, own_program_, own_, rect);
+      draw_strokes(shown_[i].strokes, own_program_, own_, rect, passes::near_m);
     } else {
-      draw_strokes(shown_[i].strokes, line_program_, lines_, rect);
+      draw_strokes(shown_[i].strokes, line_program_, lines_, rect, passes::near_m);
     }
   }
 }
@@ -236,9 +237,9 @@ void WaterPass::draw(const passes::View& view, const passes::PixelRect& rect) {
   }
 }
 
-void WaterPass::draw_over(const passes::View&, const passes::PixelRect& rect) {
-  draw_strokes(over_, line_program_, lines_, rect);
-  draw_strokes(drops_shown_, line_program_, drops_, rect);
+void WaterPass::draw_over(const passes::View& view, const passes::PixelRect& rect) {
+  draw_strokes(over_, line_program_, lines_, rect, view.nearest_m);
+  draw_strokes(drops_shown_, line_program_, drops_, rect, view.nearest_m);
 }
 
 }  // namespace rinkaku::water

@@ -52,12 +52,12 @@ class WaterPass : public passes::ScenePass {
   };
   struct StrokeProgram {
     gl::Program program;
-    GLint rect_px = -1, size_px = -1;
+    GLint rect_px = -1, size_px = -1, near_m = -1;
   };
   static StrokeProgram stroke_program(int own_brushes);
   static gl::TextureHandle upload(const BrushSheet& sheet);
   void draw_strokes(std::span<const Stroke> strokes, const StrokeProgram& program, const gl::TextureHandle& sheet,
-                    const passes::PixelRect& rect);
+                    const passes::PixelRect& rect, double near_m);
 
   gl::TextureHandle lines_, drops_, own_;
   StrokeProgram line_program_, own_program_;
