@@ -133,7 +133,8 @@ RenderReport render(const Prepared& prepared, const RenderOptions& options, cons
       water.emplace(scene, *prepared.camera, frames_per_s(described), *drawing);
       result.notices.insert(result.notices.end(), water->notices().begin(), water->notices().end());
       line.add(Group::Draw, "water", [&](Work& work) {
-        if (work.pose && work.pose->opacity > 0) water->look(work.frame, work.pose->camera_from_world);
+        if (work.pose && work.pose->opacity > 0)
+          water->look(work.frame, work.pose->camera_from_world, time_s(work.frame));
       });
     }
     line.add(Group::Draw, "draw", [&](Work& work) {

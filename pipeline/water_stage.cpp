@@ -45,6 +45,7 @@ struct WaterStage::Parts {
   const water::ReferencePicture& reference(Piece& piece, const Frame& frame, const RigidTransform& camera_from_world);
   void mirror_objects(const water::Surface& surface, const RigidTransform& camera_from_world);
 
+  double time_s = 0;  // of the frame
   CameraModel camera;
   Drawing& drawing;  // whose renderer may be another one later
   bool has_objects;
@@ -106,7 +107,8 @@ void WaterStage::Parts::mirror_objects(const water::Surface& surface, const Rigi
   glm::dvec4 plane(n, -glm::dot(n, surface.to_world({0, 0})));
   if (surface.height_m(inverse(camera_from_world).translation_m) < 0) plane = -plane;
   const passes::PixelRect picture{0, 0, eye.camera.width_px, eye.camera.height_px};
-  if (!drawing.renderer->draw_objects({eye.camera, eye.camera_from_world, plane}, picture, mirror_layer)) return;
+  if (!drawing.renderer->draw_objects({eye.camera, eye.camera_from_world, time_s, plane}, picture, mirror_layer))
+    return;
   mirrored.width_px = picture.width_px, mirrored.height_px = picture.height_px, mirrored.channels = 4;
   mirrored.samples.assign(static_cast<std::size_t>(picture.width_px) * picture.height_px * 4, 0);
   const passes::PixelRect& rect = mirror_layer.rect;
@@ -162,7 +164,8 @@ WaterStage::WaterStage(const Scene& scene, const CameraModel& camera, double fra
 WaterStage::~WaterStage() = default;
 WaterStage::WaterStage(WaterStage&&) noexcept = default;
 
-void WaterStage::look(const Frame& frame, const RigidTransform& camera_from_world) {
+void WaterStage::look(const Frame& frame, const RigidTransform& camera_from_world, double time_s) {
+  parts_->time_s = time_s;
   parts_->painted.clear(), parts_->over.clear(), parts_->drops.clear();
   for (auto& piece : parts_->pieces) {
     const auto make = [&]() -> const water::ReferencePicture& {

@@ -22,8 +22,8 @@ class WaterStage {
   ~WaterStage();
   WaterStage(WaterStage&&) noexcept;
 
-  /// The strokes of this frame.
-  void look(const Frame& frame, const RigidTransform& camera_from_world);
+  /// The strokes of this frame; `time_s` as in passes::View.
+  void look(const Frame& frame, const RigidTransform& camera_from_world, double time_s);
 
   /// Where the flow can't follow the arrows.
   const std::vector<std::string>& notices() const;

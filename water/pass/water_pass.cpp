@@ -64,7 +64,7 @@ passes::PixelRect bounds(std::span<const Stroke> strokes) {
     const int x = static_cast<int>(std::floor(s.middle_px.x - reach)),
               y = static_cast<int>(std::floor(s.middle_px.y - reach));
     const int side = static_cast<int>(std::ceil(2 * reach)) + 2;
-    rect = passes::united(rect, {x, y, side, side});
+    rect = united(rect, {x, y, side, side});
   }
   return rect;
 }
@@ -135,11 +135,11 @@ void WaterPass::show(std::span<const PaintedSurface> surfaces, std::span<const S
 }
 
 passes::PixelRect WaterPass::look(const passes::View& view, const passes::PixelRect& picture) {
-  passes::PixelRect rect = passes::united(bounds(over_), bounds(drops_shown_));
+  passes::PixelRect rect = united(bounds(over_), bounds(drops_shown_));
   for (const PaintedSurface& s : shown_) {
-    if (!s.strokes.empty()) rect = passes::united(rect, bounds(*s.surface, view));
+    if (!s.strokes.empty()) rect = united(rect, bounds(*s.surface, view));
   }
-  rect = passes::intersection(rect, picture);
+  rect = intersection(rect, picture);
   return rect.empty() ? passes::PixelRect{} : rect;
 }
 
