@@ -46,8 +46,9 @@ TEST(Line, SlowRecordingLosesItsOwnFramesOnly) {
     ++recorded;
   });
   line.run(camera(60), {}, Pace::NewestFrame);
-  // What is shown is lost only while this machine is busy elsewhere.
-  EXPECT_GE(shown, 40);
+  // What is shown is lost only while this machine is busy elsewhere; were it tied to the recording's pace, 33 of 1 s
+  // would be the most there could be.
+  EXPECT_GT(shown, recorded);
   EXPECT_EQ(shown + line.dropped().before, 60);
   EXPECT_EQ(recorded + line.dropped().drawn, shown);
   EXPECT_GT(line.dropped().drawn, 10);
