@@ -57,6 +57,11 @@ LayerFiles::LayerFiles(const Prepared& prepared, const RenderOptions& options, c
   }
 }
 
+LayerFiles::~LayerFiles() {
+  // The first one made the folder and takes it away again, once the others' files are gone.
+  while (!files_.empty()) files_.pop_back();
+}
+
 void LayerFiles::write_matte(const Frame& plate, const Matte& matte) {
   Frame frame = pool_.allocate(matte_format(plate.format));
   frame.number = plate.number;

@@ -17,6 +17,9 @@ class LayerFiles {
  public:
   /// Throws Error (Input) if one of the files can't be written.
   LayerFiles(const Prepared& prepared, const RenderOptions& options, const source::Description& described);
+  ~LayerFiles();
+  LayerFiles(const LayerFiles&) = delete;
+  LayerFiles& operator=(const LayerFiles&) = delete;
 
   /// Before the layers are laid over the plate.
   void write(const Work& work, double opacity);
