@@ -91,9 +91,10 @@ void LayerFiles::write(const Work& work, double opacity) {
 
 std::vector<std::string> LayerFiles::finish() {
   std::vector<std::string> notices;
-  for (Output& each : files_) {
-    each.sink->finish();
-    if (!each.sink->notice().empty()) notices.push_back(each.sink->notice());
+  for (std::size_t i = 0; i < files_.size(); ++i) {
+    files_[i].sink->finish();
+    // That the plate becomes RGB in a PNG is known.
+    if (i > 0 && !files_[i].sink->notice().empty()) notices.push_back(files_[i].sink->notice());
   }
   return notices;
 }
