@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include "pipeline/gl/context.h"
+#include "tests/pipeline/made_by.h"
 #include "tests/pipeline/shot_folder.h"
 
 namespace rinkaku::pipeline {
@@ -170,23 +171,11 @@ TEST(Unused, EmptySceneMakesNoGlObject) {
   EXPECT_EQ(gl::made(), before);
 }
 
-gl::Made made_by(const ShotFolder& folder, const std::string& scene) {
-  const gl::Made before = gl::made();
-  folder.render(scene, {.output = "out.mkv", .codec = "ffv1", .overwrite = true});
-  gl::Made made = gl::made();
-  made.contexts -= before.contexts;
-  made.programs -= before.programs;
-  made.buffers -= before.buffers;
-  made.textures -= before.textures;
-  made.targets -= before.targets;
-  return made;
-}
-
 TEST(Unused, OutlineThatNobodyWantsIsNotCompiled) {
   const ShotFolder folder;
   folder.noise_clip("in.mkv", small, 1);
-  const gl::Made plain = made_by(folder, test::drawn_scene);
-  const gl::Made outlined = made_by(folder, test::drawn_scene + "outline = true\n");
+  const gl::Made plain = test::made_by(folder, test::drawn_scene);
+  const gl::Made outlined = test::made_by(folder, test::drawn_scene + "outline = true\n");
   EXPECT_EQ(plain.contexts, 1);
   EXPECT_EQ(outlined.contexts, 1);
   EXPECT_GT(plain.programs, 0);

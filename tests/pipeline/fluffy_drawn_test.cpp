@@ -14,6 +14,7 @@
 #include "pipeline/gl/context.h"
 #include "pipeline/passes/layer_renderer.h"
 #include "pipeline/set_up.h"
+#include "tests/pipeline/made_by.h"
 #include "tests/pipeline/shot_folder.h"
 
 namespace rinkaku::pipeline {
@@ -125,30 +126,18 @@ TEST(FluffyDesk, PlateOutsideTheFluffIsBitIdentical) {
   EXPECT_GT(changed, 10'000u);
 }
 
-gl::Made made_by(const ShotFolder& folder, const std::string& scene) {
-  const gl::Made before = gl::made();
-  folder.render(scene, {.output = "out.mkv", .codec = "ffv1", .overwrite = true});
-  gl::Made made = gl::made();
-  made.contexts -= before.contexts;
-  made.programs -= before.programs;
-  made.buffers -= before.buffers;
-  made.textures -= before.textures;
-  made.targets -= before.targets;
-  return made;
-}
-
 TEST(Unused, FluffThatNobodyWantsIsNeitherCompiledNorAllocated) {
   const ShotFolder folder;
   folder.noise_clip("in.mkv", test::picture("yuv420p", 64, 48, test::bt709_limited), 1);
   const std::string lined = test::drawn_scene + "outline = true\n";
-  const gl::Made plain = made_by(folder, lined);
-  EXPECT_EQ(made_by(folder, lined + "fluffy = false\n"), plain);
-  const gl::Made fluffy = made_by(folder, lined + "fluffy = { line = \"none\" }\n");
+  const gl::Made plain = test::made_by(folder, lined);
+  EXPECT_EQ(test::made_by(folder, lined + "fluffy = false\n"), plain);
+  const gl::Made fluffy = test::made_by(folder, lined + "fluffy = { line = \"none\" }\n");
   EXPECT_EQ(fluffy.programs, plain.programs + 1);
   EXPECT_EQ(fluffy.textures, plain.textures + 1);
   EXPECT_GT(fluffy.buffers, plain.buffers);
   // The line around the fluff has a shader of its own.
-  EXPECT_EQ(made_by(folder, lined + "fluffy = true\n").programs, plain.programs + 2);
+  EXPECT_EQ(test::made_by(folder, lined + "fluffy = true\n").programs, plain.programs + 2);
 }
 
 // Whatever draws the line, the fluff reaches out from the body.

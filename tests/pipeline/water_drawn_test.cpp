@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "pipeline/gl/context.h"
+#include "tests/pipeline/made_by.h"
 #include "tests/pipeline/shot_folder.h"
 
 namespace rinkaku::pipeline {
@@ -123,19 +124,11 @@ TEST(DrawnWater, AnArrowInTheSkyIsRefused) {
 TEST(DrawnWater, ASceneWithoutItMakesNoneOfIt) {
   const ShotFolder folder;
   folder.noise_clip("in.mkv", small, 2);
-  const auto made_by = [&](const std::string& scene) {
-    const gl::Made before = gl::made();
-    folder.render(scene, {.output = "out.mkv", .codec = "ffv1"});
-    const gl::Made after = gl::made();
-    std::filesystem::remove(folder / "out.mkv");
-    return gl::Made{after.contexts - before.contexts, after.programs - before.programs, after.buffers - before.buffers,
-                    after.textures - before.textures, after.targets - before.targets};
-  };
-  const gl::Made dry = made_by(test::drawn_scene), wet = made_by(test::drawn_scene + basin);
+  const gl::Made dry = test::made_by(folder, test::drawn_scene), wet = test::made_by(folder, test::drawn_scene + basin);
   EXPECT_GT(wet.programs, dry.programs);
   EXPECT_GT(wet.buffers, dry.buffers);
   // Shading and its feather: nothing of water.
-  EXPECT_EQ(dry.programs, made_by(test::drawn_scene).programs);
+  EXPECT_EQ(dry.programs, test::made_by(folder, test::drawn_scene).programs);
 }
 
 }  // namespace
