@@ -11,7 +11,7 @@
 #include "outline/fluffy/fur_textures.h"
 #include "outline/fluffy/pass/fluffy_pass.h"
 #include "outline/fluffy/selection.h"
-#include "pipeline/picture_file.h"
+#include "pipeline/texture_file.h"
 
 namespace rinkaku::pipeline {
 namespace {
@@ -20,7 +20,7 @@ glm::vec3 colour(const std::array<double, 3>& c) { return glm::vec3(c[0], c[1], 
 
 fluffy::TransmissionImage transmission_of(const FluffyScene& scene) {
   const mesh::Texture texture =
-      scene.made_texture ? fluffy::fur_texture(*scene.made_texture) : read_picture(scene.texture);
+      scene.made_texture ? fluffy::fur_texture(*scene.made_texture) : read_texture(scene.texture);
   fluffy::TransmissionOptions options;
   options.threshold = scene.threshold;
   options.keep = scene.keep == FluffyScene::Keep::Above ? fluffy::TransmissionOptions::Keep::Above

@@ -12,9 +12,7 @@ PictureFormat matte_format(const PictureFormat& plate) {
   format.width_px = plate.width_px;
   format.height_px = plate.height_px;
   format.sample_aspect = plate.sample_aspect;
-  format.pixels.name = "gray";
-  format.pixels.model = ColourModel::Grey;
-  format.pixels.planes = format.pixels.components = 1;
+  format.pixels = grey8();
   format.colour.range = ColourTags::Range::Full;
   return format;
 }

@@ -18,7 +18,7 @@
 #include "outline/styles/picture_lines_pass.h"
 #include "outline/styles/stroke_pass.h"
 #include "pipeline/drawn_lines_file.h"
-#include "pipeline/stroke_image.h"
+#include "pipeline/texture_file.h"
 
 namespace rinkaku::pipeline {
 namespace {

@@ -2,13 +2,11 @@
 
 #include <algorithm>
 #include <cstring>
-#include <optional>
 
 #include "pipeline/ffmpeg/converter.h"
 #include "pipeline/ffmpeg/formats.h"
 #include "pipeline/ffmpeg/frames.h"
-#include "pipeline/frame/error.h"
-#include "pipeline/source/source.h"
+#include "pipeline/source/picture_file.h"
 
 namespace rinkaku::pipeline {
 
@@ -43,11 +41,8 @@ void SmallPictures::make(const Frame& frame, water::Picture& picture) {
 }
 
 water::Picture read_picture(const std::filesystem::path& file, int most_px, bool alpha) {
-  const auto source = source::open(file.string());
-  const std::optional<Frame> frame = source->next();
-  if (!frame) throw input_error(file.string(), "holds no picture", "give an image file");
   water::Picture picture;
-  SmallPictures(most_px, alpha).make(*frame, picture);
+  SmallPictures(most_px, alpha).make(source::read_picture(file.string()), picture);
   return picture;
 }
 

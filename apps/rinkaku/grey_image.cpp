@@ -1,52 +1,61 @@
 #include "apps/rinkaku/grey_image.h"
 
-#include <filesystem>
-
-#include <opencv2/imgcodecs.hpp>
+#include <utility>
 
 #include "pipeline/frame/error.h"
-#include "pipeline/track/opencv_quiet.h"
+#include "pipeline/source/picture_file.h"
 
 namespace rinkaku::app {
 namespace {
 
-cv::Mat read_picture(const std::string& path) {
-  if (!std::filesystem::exists(path)) throw input_error(path, "there is no such file", "check the name");
-  const cv::Mat picture = track::with_opencv([&] { return cv::imread(path, cv::IMREAD_UNCHANGED); },
-                                             [](const std::string&) { return cv::Mat(); });  // e.g. too large
-  if (picture.empty()) throw input_error(path, "it can't be read as a picture", "give a PNG, TIFF or JPEG file");
-  return picture;
+// One component of a picture, each sample over the largest that its depth holds.
+class Samples {
+ public:
+  Samples(const Frame& frame, int component)
+      : component_(frame.format.pixels.component[static_cast<std::size_t>(component)]),
+        plane_(frame.planes[static_cast<std::size_t>(component_.plane)]),
+        two_bytes_(component_.depth_bits + component_.shift_bits > 8),
+        high_byte_(frame.format.pixels.big_endian ? 0 : 1),
+        largest_((1U << component_.depth_bits) - 1) {}
+
+  float at(int x_px, int y_px) const {
+    const std::uint8_t* bytes =
+        plane_.data + y_px * plane_.stride_bytes + x_px * component_.step_bytes + component_.offset_bytes;
+    const unsigned word = two_bytes_ ? static_cast<unsigned>(bytes[high_byte_] << 8 | bytes[1 - high_byte_]) : *bytes;
+    return static_cast<float>(word >> component_.shift_bits & largest_) / static_cast<float>(largest_);
+  }
+
+ private:
+  Component component_;
+  Plane plane_;
+  bool two_bytes_;
+  int high_byte_;
+  unsigned largest_;
+};
+
+matte::GreyMatte matte_of(const Frame& frame, int component) {
+  matte::GreyMatte matte{frame.format.width_px, frame.format.height_px, {}};
+  matte.alpha.reserve(static_cast<std::size_t>(matte.width_px) * static_cast<std::size_t>(matte.height_px));
+  const Samples samples(frame, component);
+  for (int y = 0; y < matte.height_px; ++y) {
+    for (int x = 0; x < matte.width_px; ++x) matte.alpha.push_back(samples.at(x, y));
+  }
+  return matte;
 }
 
 }  // namespace
 
 matte::GreyMatte read_grey(const std::string& path) {
-  const cv::Mat picture = read_picture(path);
-  const double largest = picture.depth() == CV_8U ? 255 : picture.depth() == CV_16U ? 65535 : 0;
-  if (largest == 0) throw input_error(path, "has neither 8 nor 16 bits a channel", "convert it to PNG");
-  cv::Mat grey;
-  if (picture.channels() == 4) {
-    cv::extractChannel(picture, grey, 3);
-  } else {
-    cv::extractChannel(picture, grey, 0);
-    for (int channel = 1; channel < picture.channels(); ++channel) {
-      cv::Mat other;
-      cv::extractChannel(picture, other, channel);
-      if (cv::countNonZero(other != grey) > 0) {
-        throw input_error(path, "is a colour picture without alpha", "give a grey one, or one with an alpha channel");
-      }
-    }
+  Frame frame = source::read_picture(path);
+  if (frame.format.pixels.has_alpha) return matte_of(frame, frame.format.pixels.components - 1);
+  if (frame.format.pixels.model == ColourModel::Grey) return matte_of(frame, 0);
+  // Grey pictures are often stored in colour.
+  if (frame.format.pixels.model == ColourModel::Yuv) frame = source::read_rgba(path);
+  matte::GreyMatte red = matte_of(frame, 0);
+  if (matte_of(frame, 1).alpha != red.alpha || matte_of(frame, 2).alpha != red.alpha) {
+    throw input_error(path, "is a colour picture without alpha", "give a grey one, or one with an alpha channel");
   }
-  cv::Mat alpha;
-  grey.convertTo(alpha, CV_32F, 1 / largest);
-  return {alpha.cols, alpha.rows, std::vector<float>(alpha.begin<float>(), alpha.end<float>())};
-}
-
-std::string png_bytes(const std::string& path, int width_px, int height_px, const std::uint8_t* grey) {
-  const cv::Mat picture(height_px, width_px, CV_8U, const_cast<std::uint8_t*>(grey));
-  std::vector<std::uint8_t> bytes;
-  if (!cv::imencode(".png", picture, bytes)) throw runtime_failure(path, "the PNG could not be made");
-  return {bytes.begin(), bytes.end()};
+  return red;
 }
 
 }  // namespace rinkaku::app

@@ -1,17 +1,18 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <cstring>
 
 #include <glm/geometric.hpp>
 #include <nlohmann/json.hpp>
 
 #include "apps/rinkaku/call_values.h"
 #include "apps/rinkaku/commands.h"
-#include "apps/rinkaku/grey_image.h"
 #include "apps/rinkaku/json_output.h"
+#include "apps/rinkaku/picture_file.h"
 #include "apps/rinkaku/surface_file.h"
-#include "pipeline/files/pending_file.h"
 #include "pipeline/frame/error.h"
+#include "pipeline/frame/frame.h"
 #include "pipeline/gl/context.h"
 #include "silhouette/peers/cluster_cones.h"
 #include "silhouette/peers/reduction.h"
@@ -73,12 +74,25 @@ silhouette::CheckView view_of(const MatteCall& call, const glm::dvec3& eye) {
   return view;
 }
 
+Frame grey_frame(int width_px, int height_px, const std::vector<std::uint8_t>& samples) {
+  PictureFormat format;
+  format.width_px = width_px, format.height_px = height_px;
+  format.pixels = grey8();
+  format.colour.range = ColourTags::Range::Full;
+  Frame frame = FramePool().allocate(format);
+  const auto width = static_cast<std::size_t>(width_px);
+  for (int y = 0; y < height_px; ++y) {
+    std::memcpy(frame.planes[0].data + y * frame.planes[0].stride_bytes,
+                samples.data() + static_cast<std::size_t>(y) * width, width);
+  }
+  return frame;
+}
+
 }  // namespace
 
 int matte(const MatteCall& call) {
-  files::PendingFile output(call.output, call.force);
-  output.must_not_be(call.mesh);
-  if (!call.regions.empty()) output.must_not_be(call.regions);
+  check_picture_file(call.output, call.mesh, call.force);
+  if (!call.regions.empty()) refuse_own_input(call.output, call.regions);
   const glm::dvec3 eye = parse_point("--eye", call.eye);
   const silhouette::CheckView view = view_of(call, eye);
   const silhouette::Surface surface = read_surface(call.mesh);
@@ -90,7 +104,7 @@ int matte(const MatteCall& call) {
   drawing.draw(view, chosen.indices, pixels);  // the first drawing compiles
   const double draw_ms = drawing.draw(view, chosen.indices, pixels).wall_ms;
   const CameraModel& camera = view.view.camera;
-  output.write(png_bytes(call.output, camera.width_px, camera.height_px, pixels.data()));
+  write_picture_file(grey_frame(camera.width_px, camera.height_px, pixels), call.output, call.force);
 
   const std::size_t triangles = chosen.indices.size() / 3;
   const auto covered = pixels.size() - static_cast<std::size_t>(std::count(pixels.begin(), pixels.end(), 0));

@@ -10,7 +10,7 @@ namespace rinkaku::app {
 /// the input itself.
 void check_picture_file(const std::string& picture, const std::string& input, bool force);
 
-/// Writes a frame of 8-bit RGBA as a PNG.
+/// Writes a frame as a PNG.
 void write_picture_file(const Frame& frame, const std::string& picture, bool force);
 
 /// Throws Error (Input) if the output is the input.

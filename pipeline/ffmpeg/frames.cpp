@@ -33,7 +33,9 @@ Frame wrap(FramePtr decoded, const PictureFormat& format) {
     frame.planes[static_cast<std::size_t>(p)].stride_bytes = decoded->linesize[p];
   }
   frame.storage = std::shared_ptr<void>(decoded.release(), [](void* p) { Free{}(static_cast<AVFrame*>(p)); });
-  frame.writable = false;
+  frame.let_go = [](const void* picture) {
+    return av_frame_is_writable(const_cast<AVFrame*>(static_cast<const AVFrame*>(picture))) > 0;
+  };
   return frame;
 }
 

@@ -5,7 +5,8 @@
 
 namespace rinkaku::ffmpeg {
 
-/// A Frame on the decoder's own memory: no sample is copied, so it is not writable. Takes the AVFrame over.
+/// A Frame on the decoder's own memory: no sample is copied. It is let go once the decoder holds the AVFrame's buffers
+/// no more. Takes the AVFrame over.
 /// Only planes, format and storage are set. Precondition: the format's layout is the AVFrame's.
 Frame wrap(FramePtr decoded, const PictureFormat& format);
 

@@ -30,6 +30,8 @@ std::ptrdiff_t aligned_stride(int row_bytes) {
 // makes sure that whoever held it before, on whichever thread, is done with the samples.
 bool held_once(const std::shared_ptr<void>& storage) { return std::shared_ptr<void>(storage).use_count() == 2; }
 
+bool always(const void*) { return true; }
+
 }  // namespace
 
 struct FramePool::Shelf {
@@ -98,12 +100,12 @@ Frame FramePool::allocate(const PictureFormat& format) {
   auto shared_block = std::make_shared<Block>(std::move(block));
   frame.storage =
       std::shared_ptr<void>(address, [shelf, shared_block](void*) { shelf->give_back(std::move(*shared_block)); });
-  frame.writable = true;
+  frame.let_go = always;
   return frame;
 }
 
 void FramePool::make_writable(Frame& frame) {
-  if (frame.writable && held_once(frame.storage)) return;
+  if (frame.let_go && held_once(frame.storage) && frame.let_go(frame.storage.get())) return;
   Frame own = allocate(frame.format);
   for (int p = 0; p < frame.format.pixels.planes; ++p) {
     const Plane& from = frame.planes[p];
@@ -115,7 +117,7 @@ void FramePool::make_writable(Frame& frame) {
   }
   frame.planes = own.planes;
   frame.storage = std::move(own.storage);
-  frame.writable = true;
+  frame.let_go = always;
 }
 
 }  // namespace rinkaku

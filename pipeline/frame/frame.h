@@ -36,9 +36,10 @@ struct Frame {
   PictureFormat format;
   std::array<Plane, 4> planes{};
   std::shared_ptr<void> storage;  ///< keeps the planes alive
-  /// The storage is memory of our own, not a decoder's. It may be written as long as no copy of the frame shares it,
-  /// which make_writable() sees to: the flag is copied along and says nothing about copies.
-  bool writable = false;
+  /// Whether nobody but the frames that share `storage` reads it: a decoder predicts later pictures from those it gave
+  /// out, until it lets go of them. Null: it is never known. It says nothing about copies of the frame, which
+  /// make_writable() sees to.
+  bool (*let_go)(const void* storage) = nullptr;
 
   double time_s() const { return static_cast<double>(pts) * time_base.value(); }
 };

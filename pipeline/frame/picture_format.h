@@ -44,6 +44,15 @@ struct PixelFormat {
   bool operator==(const PixelFormat&) const = default;
 };
 
+/// 8-bit grey in one plane.
+inline PixelFormat grey8() {
+  PixelFormat pixels;
+  pixels.name = "gray";
+  pixels.model = ColourModel::Grey;
+  pixels.planes = pixels.components = 1;
+  return pixels;
+}
+
 /// Colour description: code points of ITU-T H.273 (the numbers that containers and FFmpeg use), 2 is unspecified.
 struct ColourTags {
   enum class Range { Unspecified, Limited, Full };

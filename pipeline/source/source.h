@@ -71,9 +71,9 @@ struct OpenOptions {
 /// pattern starts at the lowest number there is and stops before the first that is missing. A file of exactly that name
 /// comes first. One still image is a video of one frame.
 ///
-/// Decodes the first picture at once, since only that tells the format. Frames are the decoder's own memory and not
-/// writable; formats whose components are no samples of their own (palettes, floating point, ...) are converted.
-/// Throws Error (Input) if it can't be read or holds no picture.
+/// Decodes the first picture at once, since only that tells the format. Frames are the decoder's own memory; formats
+/// whose components are no samples of their own (palettes, floating point, ...) are converted. Throws Error (Input) if
+/// it can't be read or holds no picture.
 std::unique_ptr<Source> open(const std::string& path, const OpenOptions& options = {});
 
 /// The files that open() takes by that name: itself, or all of a sequence that there are. Throws Error (Input) if the

@@ -144,7 +144,7 @@ bool can_blend(const PixelFormat& pixels) {
 }
 
 void Blender::blend(Frame& frame, const Layer& layer, double opacity_wish) {
-  assert(frame.writable && can_blend(frame.format.pixels));
+  assert(frame.let_go && can_blend(frame.format.pixels));
   const PictureFormat& format = frame.format;
   const PixelFormat& pixels = format.pixels;
   const PixelRect& rect = layer.rect;

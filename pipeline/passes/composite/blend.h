@@ -13,7 +13,7 @@ bool can_blend(const PixelFormat& pixels);
 ///
 /// Samples under alpha 0, and chroma blocks under alpha 0 everywhere, keep their bits. A matrix that is not specified
 /// is taken as BT.709 from 1280 pixels of width or 577 of height on, else as BT.601; a range that is not specified as
-/// limited for Y'CbCr, full for grey and RGB. `layer` must lie inside the picture. Precondition: frame.writable,
+/// limited for Y'CbCr, full for grey and RGB. `layer` must lie inside the picture. Precondition: frame made writable,
 /// can_blend(). Keeps scratch memory between calls: one object a thread.
 class Blender {
  public:

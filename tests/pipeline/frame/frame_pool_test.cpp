@@ -72,7 +72,7 @@ TEST(FramePool, RowsAreAlignedAndApart) {
   FramePool pool;
   for (int width : {1, 35, 64, 65, 1280}) {
     const Frame frame = pool.allocate(yuv420(width, 7));
-    EXPECT_TRUE(frame.writable);
+    EXPECT_TRUE(frame.let_go && frame.let_go(frame.storage.get()));
     const std::uint8_t* end = nullptr;
     for (int p = 0; p < 3; ++p) {
       const Plane& plane = frame.planes[p];
@@ -125,10 +125,9 @@ TEST(FramePool, MakeWritableCopiesASharedFrameOnce) {
   fill(source, 9);
   source.number = 12;
   source.pts = 99;
-  source.writable = false;  // as a decoder's own frame is
+  source.let_go = nullptr;
   Frame own = source;
   pool.make_writable(own);
-  EXPECT_TRUE(own.writable);
   EXPECT_TRUE(holds(own, 9));
   EXPECT_EQ(own.number, 12);
   EXPECT_EQ(own.pts, 99);
@@ -140,13 +139,11 @@ TEST(FramePool, MakeWritableCopiesASharedFrameOnce) {
   EXPECT_EQ(own.planes[0].data, data);
 }
 
-// The flag travels with the copy, the right to write doesn't.
 TEST(FramePool, MakeWritableGivesACopyOfAWritableFrameItsOwnStorage) {
   FramePool pool;
   std::optional<Frame> first = pool.allocate(yuv420(35, 29));
   fill(*first, 9);
   Frame copy = *first;
-  ASSERT_TRUE(copy.writable);
   pool.make_writable(copy);
   EXPECT_NE(copy.planes[0].data, first->planes[0].data);
   fill(copy, 50);
@@ -167,7 +164,7 @@ TEST(FramePool, MakeWritableTurnsNegativeStridesRound) {
   FramePool pool;
   Frame source = pool.allocate(yuv420(35, 29));
   Frame flipped = source;
-  flipped.writable = false;
+  flipped.let_go = nullptr;
   for (int p = 0; p < 3; ++p) {
     flipped.planes[p].data += flipped.planes[p].stride_bytes * (flipped.planes[p].rows - 1);
     flipped.planes[p].stride_bytes *= -1;
@@ -209,7 +206,7 @@ TEST(FramePool, ServesSeveralThreads) {
         const Frame a = pool.allocate(yuv420(24, 10));
         fill(a, t);
         Frame b = a;
-        b.writable = false;
+        b.let_go = nullptr;
         pool.make_writable(b);
         if (!holds(a, t) || !holds(b, t)) ++spoilt;
       }

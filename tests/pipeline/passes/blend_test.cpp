@@ -30,7 +30,7 @@ constexpr double rounding = 0.51;
 void expect_blended(Frame frame, const Layer& layer, double opacity, int matrix, bool full) {
   FramePool pool;
   Frame before = frame;
-  before.writable = false;
+  before.let_go = nullptr;
   pool.make_writable(before);
   const std::vector<std::uint8_t> bytes_before = all_bytes(frame);
   Blender().blend(frame, layer, opacity);

@@ -1,5 +1,6 @@
 #include "pipeline/source/source.h"
 
+#include <cstring>
 #include <sstream>
 
 #include "tests/pipeline/source/media_tools.h"
@@ -57,11 +58,58 @@ TEST(VideoSource, FrameIsTheDecodersOwnMemory) {
     auto source = source::open(path);
     kept = source->next();
     before = test::samples(*kept);
-    EXPECT_FALSE(kept->writable);
     test::all_frames(*source);
   }
   // A frame outlives its source and is not drawn over by later ones.
   EXPECT_EQ(test::samples(*kept), before);
+}
+
+// Writing into frames at once must not reach what the decoder predicts from, whether or not it still holds them.
+TEST(VideoSource, FramesMadeWritableAreNotWhatLaterOnesArePredictedFrom) {
+  const test::TemporaryFolder folder;
+  for (const std::string codec : {"mpeg4 -g 250", "mpeg4 -bf 2", "libx264 -bf 3", "ffv1", "mjpeg", "rawvideo", "gif"}) {
+    const std::string path = folder / (codec == "gif" ? "a.gif" : codec == "rawvideo" ? "a.avi" : "a.mkv");
+    std::filesystem::remove(path);
+    test::ffmpeg("-f lavfi -i testsrc2=size=64x48:rate=25 -t 1 -c:v " + codec + " " + path);
+    for (const int threads : {1, 3}) {
+      const auto untouched = source::open(path, {.threads = threads}),
+                 written = source::open(path, {.threads = threads});
+      FramePool pool;
+      int frames = 0;
+      while (std::optional<Frame> expected = untouched->next()) {
+        std::optional<Frame> frame = written->next();
+        ASSERT_TRUE(frame);
+        ASSERT_EQ(test::samples(*frame), test::samples(*expected)) << codec << ", frame " << frames;
+        pool.make_writable(*frame);
+        for (const Plane& plane : frame->planes) {
+          for (int y = 0; y < plane.rows; ++y) std::memset(plane.data + y * plane.stride_bytes, 77, plane.row_bytes);
+        }
+        ++frames;
+      }
+      EXPECT_EQ(frames, 25) << codec;
+    }
+  }
+}
+
+TEST(VideoSource, FrameThatTheDecoderLetGoIsWrittenWithoutACopy) {
+  const test::TemporaryFolder folder;
+  const std::string path = folder / "a.mp4";
+  test::ffmpeg("-f lavfi -i testsrc2=size=64x48:rate=25 -t 1 -c:v mpeg4 " + path);
+  auto source = source::open(path, {.threads = 1});
+  std::optional<Frame> first = source->next();
+  std::optional<Frame> second = source->next();
+  FramePool pool;
+  const std::uint8_t* stored = second->planes[0].data;
+  pool.make_writable(*second);
+  EXPECT_NE(second->planes[0].data, stored) << "the third picture is predicted from it";
+  for (int i = 0; i < 3; ++i) ASSERT_TRUE(source->next());
+  stored = first->planes[0].data;
+  pool.make_writable(*first);
+  EXPECT_EQ(first->planes[0].data, stored);
+  // But never one that a copy shares.
+  const Frame copy = *first;
+  pool.make_writable(*first);
+  EXPECT_NE(first->planes[0].data, copy.planes[0].data);
 }
 
 TEST(VideoSource, TellsColourAspectAndInterlacing) {
