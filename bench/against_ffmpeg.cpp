@@ -255,8 +255,9 @@ int main(int argc, char** argv) {
   settings.rinkaku = RINKAKU_BINARY;
   settings.video = RINKAKU_SOURCE_DIR "/recordings/desk/video.mp4";
   settings.mesh = RINKAKU_TEST_DATA "/meshes/closed/oded_spot_23k.obj";
-  for (int i = 1; i + 1 < argc; i += 2) {
-    const std::string key = argv[i], value = argv[i + 1];
+  std::vector<std::pair<int, int>> sizes = {{1280, 720}, {1920, 1080}};
+  for (int i = 1; i < argc; i += 2) {
+    const std::string key = argv[i], value = i + 1 < argc ? argv[i + 1] : "";
     if (key == "--video") {
       settings.video = value;
     } else if (key == "--mesh") {
@@ -267,12 +268,15 @@ int main(int argc, char** argv) {
       settings.rounds = std::stoi(value);
     } else if (key == "--bit-rate") {
       settings.bit_rate = std::stol(value);
+    } else if (int width = 0, height = 0;
+               key == "--size" && std::sscanf(value.c_str(), "%dx%d", &width, &height) == 2) {
+      sizes = {{width, height}};
     } else {
-      std::fprintf(stderr, "usage: %s [--video FILE] [--mesh FILE] [--frames N] [--rounds N] [--bit-rate N]\n",
+      std::fprintf(stderr,
+                   "usage: %s [--video FILE] [--mesh FILE] [--frames N] [--rounds N] [--bit-rate N] [--size WxH]\n",
                    argv[0]);
       return 2;
     }
   }
-  compare(settings, 1280, 720);
-  compare(settings, 1920, 1080);
+  for (const auto& [width, height] : sizes) compare(settings, width, height);
 }

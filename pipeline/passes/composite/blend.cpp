@@ -153,6 +153,12 @@ void Blender::blend(Frame& frame, const Layer& layer, double opacity_wish) {
   const float opacity = static_cast<float>(std::min(opacity_wish, 1.0));
   const std::array<ComponentWeights, 4> weights = component_weights(format);
 
+  auto pixels_of = [&](int y) {
+    return layer.rgba.data() + static_cast<std::size_t>(y - rect.y_px) * rect.width_px * 4;
+  };
+  spans_.clear();
+  for (int y = rect.y_px; y < rect.bottom_px(); ++y) spans_.push_back(covered(pixels_of(y), rect.width_px));
+
   // Components with the same grid share their sums: luma (and alpha) first, then chroma.
   for (int chroma = 0; chroma < 2; ++chroma) {
     const bool chroma_grid = chroma == 1;
@@ -176,12 +182,9 @@ void Blender::blend(Frame& frame, const Layer& layer, double opacity_wish) {
     for (int row = rect.y_px >> log2_h; row <= (rect.bottom_px() - 1) >> log2_h; ++row) {
       const int top = row << log2_h, bottom = std::min((row + 1) << log2_h, format.height_px);
       const int first_y = std::max(top, rect.y_px), end_y = std::min(bottom, rect.bottom_px());
-      auto pixels_of = [&](int y) {
-        return layer.rgba.data() + static_cast<std::size_t>(y - rect.y_px) * rect.width_px * 4;
-      };
       int first = rect.width_px, last = 0;
       for (int y = first_y; y < end_y; ++y) {
-        const auto [row_first, row_last] = covered(pixels_of(y), rect.width_px);
+        const auto [row_first, row_last] = spans_[static_cast<std::size_t>(y - rect.y_px)];
         if (row_first == row_last) continue;
         first = std::min(first, row_first), last = std::max(last, row_last);
       }

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <utility>
+#include <vector>
+
 #include "pipeline/frame/frame.h"
 #include "pipeline/passes/layer.h"
 
@@ -20,6 +23,8 @@ class Blender {
   void blend(Frame& frame, const Layer& layer, double opacity = 1);
 
  private:
+  std::vector<std::pair<int, int>>
+      spans_;  // of each row of the layer: the first column that holds anything, and the end
   std::vector<std::int16_t> sums_;
 };
 
