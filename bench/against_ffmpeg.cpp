@@ -23,7 +23,7 @@
 
 #include "mesh/bounds.h"
 #include "mesh/import.h"
-#include "pipeline/placement.h"
+#include "pipeline/objects/placement.h"
 
 namespace {
 

@@ -5,7 +5,7 @@
 //
 // Scenes give their poses as a file.
 
-#include "pipeline/drawing.h"
+#include "pipeline/objects/drawing.h"
 
 #include <algorithm>
 #include <cstdio>

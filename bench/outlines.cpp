@@ -23,7 +23,7 @@
 #include "outline/line_width.h"
 #include "pipeline/frame/error.h"
 #include "pipeline/gl/context.h"
-#include "pipeline/outline_passes.h"
+#include "pipeline/objects/outline_passes.h"
 #include "pipeline/passes/layer_renderer.h"
 #include "pipeline/passes/toon/band_borders.h"
 #include "pipeline/passes/toon/toon_pass.h"

@@ -1,14 +1,15 @@
 #include "pipeline/pipeline.h"
 
+#include <algorithm>
 #include <chrono>
+#include <iterator>
 #include <optional>
+#include <string_view>
 #include <utility>
 
-#include "pipeline/drawing.h"
-#include "pipeline/filmed_things.h"
 #include "pipeline/frame/error.h"
-#include "pipeline/layer_files.h"
 #include "pipeline/line.h"
+#include "pipeline/objects/drawing.h"
 #include "pipeline/passes/composite/blend.h"
 #include "pipeline/passes/composite/lens_map.h"
 #include "pipeline/passes/composite/merge.h"
@@ -17,9 +18,11 @@
 #include "pipeline/set_up.h"
 #include "pipeline/sink/sink.h"
 #include "pipeline/source/source.h"
+#include "pipeline/stages/filmed_things.h"
+#include "pipeline/stages/layer_files.h"
+#include "pipeline/stages/water_stage.h"
+#include "pipeline/stages/world.h"
 #include "pipeline/track/tracker.h"
-#include "pipeline/water_stage.h"
-#include "pipeline/world.h"
 
 namespace rinkaku::pipeline {
 namespace {
@@ -81,165 +84,239 @@ void take_change(Watcher& watcher, const Frame& frame, Drawing& drawing) {
   }
 }
 
+// One run of the line: what its stages need lives here, in the order in which a frame meets it.
+class Run {
+ public:
+  /// Sets everything up, from the source to the sink: whatever is wrong is found before anything is written.
+  Run(const Prepared& prepared, const RenderOptions& options, const std::atomic<bool>& stop, Watcher* watcher);
+  RenderReport go(const Progress& progress);
+
+ private:
+  void open_source();
+  void add_tracking();
+  void add_mattes();
+  void add_drawing();
+  void add_lens();
+  void add_layer_files();
+  void add_merging();
+  void add_compositing();
+  void add_outputs();
+
+  void draw(Work& work);
+  void merge(Work& work);
+  void finish();
+  void require_frames(std::int64_t skipped) const;
+
+  bool runs(std::string_view stage) const { return prepared_.plan.runs(stage); }
+  const source::Description& described() const { return source_->description(); }
+  // On the video's clock, whatever its file's says.
+  double time_s(const Frame& frame) const { return frame.time_s() - described().first_time_s(); }
+  // A world in the plate's place doesn't fade with what was drawn into it.
+  double opacity(const Work& work) const { return world_ ? 1.0 : work.pose ? work.pose->opacity : 0.0; }
+  void notice(std::vector<std::string> lines) {
+    std::move(lines.begin(), lines.end(), std::back_inserter(report_.notices));
+  }
+
+  const Prepared& prepared_;
+  const RenderOptions& options_;
+  const std::atomic<bool>& stop_;
+  Watcher* const watcher_;
+  RenderReport report_;
+  Line line_;
+  Spent<Work> spent_;
+
+  std::unique_ptr<source::Source> source_;
+  std::unique_ptr<track::Tracker> tracker_;
+  std::optional<TrackedPose> last_pose_;
+  std::optional<FilmedThings> filmed_;
+  std::optional<passes::LensMap> lens_;
+  std::optional<Drawing> drawing_;
+  std::optional<WaterStage> water_;
+  std::vector<double> cuts_m_;
+  passes::Layer scratch_;  // of the compositing thread
+  std::optional<LayerFiles> layers_;
+  std::optional<World> world_;
+  FramePool pool_;
+  passes::Blender blender_;
+  Output output_;
+  std::unique_ptr<sink::Sink> virtual_camera_;
+};
+
+Run::Run(const Prepared& prepared, const RenderOptions& options, const std::atomic<bool>& stop, Watcher* watcher)
+    : prepared_(prepared), options_(options), stop_(stop), watcher_(watcher) {
+  report_.output = prepared.scene.output.path;
+  open_source();
+  add_tracking();
+  add_mattes();
+  add_drawing();
+  add_lens();
+  if (watcher_) line_.add(Group::Composite, "watch", [this](Work& work) { watcher_->drawn(work); });
+  if (runs("encode")) output_ = open_output(prepared_, options_, described());
+  add_layer_files();
+  add_merging();
+  add_compositing();
+  add_outputs();
+}
+
+void Run::open_source() {
+  source_ = pipeline::open_source(prepared_);
+  if (watcher_) source_ = watcher_->through(std::move(source_));
+  source_->stop_when(stop_);
+  report_.width_px = described().format.width_px;
+  report_.height_px = described().format.height_px;
+  if (!described().notice.empty()) notice({described().notice});
+}
+
+void Run::add_tracking() {
+  if (!runs("track")) return;
+  tracker_ = make_tracker(prepared_, described());
+  if (watcher_) tracker_ = watcher_->tracked_by(std::move(tracker_));
+  line_.add(Group::Track, "track", [this](Work& work) {
+    if (!work.frame.repeated) last_pose_ = tracker_->track(work.frame);
+    work.pose = last_pose_;
+  });
+}
+
+void Run::add_mattes() {
+  if (!runs("matte")) return;
+  filmed_.emplace(prepared_, described());
+  line_.add(Group::Matte, "matte", [this](Work& work) { filmed_->find(work); });
+}
+
+void Run::add_drawing() {
+  if (runs("lens")) lens_.emplace(*prepared_.camera);
+  if (!runs("draw")) return;
+  const passes::PixelRect picture{0, 0, report_.width_px, report_.height_px};
+  drawing_.emplace(make_drawing(prepared_.scene, lens_ ? lens_->pinhole_rect() : picture,
+                                {.tell = options_.tell, .stop = &stop_, .wait_for_lists = !described().live}));
+  notice(drawing_->notices);
+  if (runs("water")) {
+    water_.emplace(prepared_.scene, *prepared_.camera, frames_per_s(described()), *drawing_);
+    notice(water_->notices());
+    line_.add(Group::Draw, "water", [this](Work& work) {
+      if (!work.pose || work.pose->opacity <= 0) return;
+      water_->look(work.frame, work.pose->camera_from_world, time_s(work.frame));
+    });
+  }
+  line_.add(Group::Draw, "draw", [this](Work& work) { draw(work); });
+}
+
+void Run::draw(Work& work) {
+  const std::span<passes::Layer> layers = empty_layers(work);
+  if (watcher_) take_change(*watcher_, work.frame, *drawing_);
+  if (!work.pose || work.pose->opacity <= 0) return;
+  ++report_.posed_frames;
+  cuts_m_.clear();
+  for (const Matte& matte : work.mattes) cuts_m_.push_back(cut_m(matte));
+  drawing_->renderer->draw({*prepared_.camera, work.pose->camera_from_world, time_s(work.frame)}, cuts_m_, layers);
+}
+
+void Run::add_lens() {
+  if (!lens_) return;
+  line_.add(Group::Composite, "lens", [this](Work& work) {
+    for (passes::Layer& layer : work.drawn()) {
+      lens_->distort(layer, scratch_);
+      std::swap(layer, scratch_);
+    }
+  });
+}
+
+void Run::add_layer_files() {
+  if (!runs("layers")) return;
+  layers_.emplace(prepared_, options_, described());
+  line_.add(Group::Composite, "layers", [this](Work& work) { layers_->write(work, opacity(work)); });
+}
+
+void Run::add_merging() {
+  if (!runs("merge")) return;
+  if (runs("background")) world_.emplace(*prepared_.scene.background, described());
+  line_.add(Group::Composite, "merge", [this](Work& work) { merge(work); });
+}
+
+void Run::merge(Work& work) {
+  if (world_) {
+    if (!drawing_) empty_layers(work);
+    for (passes::Layer& layer : work.slices) passes::fade(layer, work.pose ? work.pose->opacity : 0.0);
+    passes::put_behind(world_->next(), work.slices.back(), scratch_);
+  }
+  passes::merge({work.slices, work.mattes, runs("composite")}, work.layer);
+}
+
+void Run::add_compositing() {
+  if (runs("composite")) {
+    require_blendable(described());
+    line_.add(Group::Composite, "composite", [this](Work& work) {
+      if (work.layer.rect.empty()) return;
+      pool_.make_writable(work.frame);
+      blender_.blend(work.frame, work.layer, opacity(work));
+    });
+  }
+  if (runs("unmultiply")) {
+    line_.add(Group::Composite, "unmultiply",
+              [this](Work& work) { work.frame = straight_alpha_frame(work.frame, work.layer, opacity(work), pool_); });
+  }
+}
+
+void Run::add_outputs() {
+  if (watcher_) line_.add(Group::Composite, "show", [this](Work& work) { watcher_->finished(work); });
+  if (runs("virtual-camera")) {
+    virtual_camera_ = open_virtual_camera(prepared_, options_, described());
+    line_.add(Group::Composite, "virtual-camera", [this](Work& work) { virtual_camera_->write(work.frame); });
+  }
+  line_.add(Group::Encode, "encode", [this](Work& work) {
+    if (output_.sink && !work.frame.repeated) output_.sink->write(work.frame);
+    work.frame = {};
+    work.pose.reset();
+    spent_.give_back(std::move(work));
+  });
+}
+
+RenderReport Run::go(const Progress& progress) {
+  const auto start = std::chrono::steady_clock::now();
+  const std::int64_t total = frames_expected(described(), options_);
+  const std::int64_t skipped = skip_to(*source_, options_.first_frame, stop_);
+  const Watched watched(watcher_, *source_, line_);
+  const Line::Drawn drawn_one = [&, done = std::int64_t{0}]() mutable {
+    if (progress) progress(++done, total);
+  };
+  report_.frames = line_.run(decoder(*source_, options_, stop_, spent_), drawn_one,
+                             described().live ? Pace::NewestFrame : Pace::EveryFrame);
+  report_.interrupted = stop_;
+  require_frames(skipped);
+  finish();
+  report_.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  report_.stages = line_.reports();
+  return std::move(report_);
+}
+
+void Run::require_frames(std::int64_t skipped) const {
+  if (report_.interrupted) return;
+  if (report_.frames == 0) throw no_frame_error(described(), options_, skipped);
+  if (runs("draw") && report_.posed_frames == 0 && !described().live) {
+    throw no_pose_error(prepared_, described(), report_.frames);
+  }
+}
+
+// What was written is put in place, and what there is to tell is told.
+void Run::finish() {
+  report_.dropped = line_.dropped();
+  if (const std::int64_t dropped = report_.dropped.before + report_.dropped.drawn; dropped > 0) {
+    notice({described().name + ": " + std::to_string(dropped) + " pictures came too fast and were left out"});
+  }
+  for (sink::Sink* each : {output_.sink.get(), virtual_camera_.get()}) {
+    if (each == nullptr) continue;
+    each->finish();
+    if (!each->notice().empty()) notice({each->notice()});
+  }
+  if (layers_) notice(layers_->finish());
+  if (!source_->damage().empty()) notice({source_->damage()});
+}
+
 }  // namespace
 
 RenderReport render(const Prepared& prepared, const RenderOptions& options, const std::atomic<bool>& stop,
                     const Progress& progress, Watcher* watcher) {
-  const Scene& scene = prepared.scene;
-  const Plan& plan = prepared.plan;
-  RenderReport result;
-  result.output = scene.output.path;
-
-  // Set-up, from the source to the sink: whatever is wrong is found before anything is written.
-  std::unique_ptr<source::Source> source = open_source(prepared);
-  if (watcher) source = watcher->through(std::move(source));
-  source->stop_when(stop);
-  const source::Description& described = source->description();
-  result.width_px = described.format.width_px;
-  result.height_px = described.format.height_px;
-  if (!described.notice.empty()) result.notices.push_back(described.notice);
-
-  Line line;
-  std::unique_ptr<track::Tracker> tracker;
-  if (plan.runs("track")) {
-    tracker = make_tracker(prepared, described);
-    if (watcher) tracker = watcher->tracked_by(std::move(tracker));
-    line.add(Group::Track, "track", [&, last = std::optional<TrackedPose>()](Work& work) mutable {
-      if (!work.frame.repeated) last = tracker->track(work.frame);
-      work.pose = last;
-    });
-  }
-
-  std::optional<FilmedThings> filmed;
-  if (plan.runs("matte")) {
-    filmed.emplace(prepared, described);
-    line.add(Group::Matte, "matte", [&](Work& work) { filmed->find(work); });
-  }
-
-  std::optional<passes::LensMap> lens;
-  if (plan.runs("lens")) lens.emplace(*prepared.camera);
-  // On the video's clock, whatever its file's says.
-  const auto time_s = [first_s = described.first_time_s()](const Frame& frame) { return frame.time_s() - first_s; };
-  std::optional<Drawing> drawing;
-  std::optional<WaterStage> water;
-  std::vector<double> cuts_m;
-  Spent<Work> spent;
-  if (plan.runs("draw")) {
-    const passes::PixelRect picture{0, 0, result.width_px, result.height_px};
-    drawing.emplace(make_drawing(scene, lens ? lens->pinhole_rect() : picture,
-                                 {.tell = options.tell, .stop = &stop, .wait_for_lists = !described.live}));
-    result.notices.insert(result.notices.end(), drawing->notices.begin(), drawing->notices.end());
-    if (plan.runs("water")) {
-      water.emplace(scene, *prepared.camera, frames_per_s(described), *drawing);
-      result.notices.insert(result.notices.end(), water->notices().begin(), water->notices().end());
-      line.add(Group::Draw, "water", [&](Work& work) {
-        if (work.pose && work.pose->opacity > 0)
-          water->look(work.frame, work.pose->camera_from_world, time_s(work.frame));
-      });
-    }
-    line.add(Group::Draw, "draw", [&](Work& work) {
-      const std::span<passes::Layer> layers = empty_layers(work);
-      if (watcher) take_change(*watcher, work.frame, *drawing);
-      if (!work.pose || work.pose->opacity <= 0) return;
-      ++result.posed_frames;
-      cuts_m.clear();
-      for (const Matte& matte : work.mattes) cuts_m.push_back(cut_m(matte));
-      drawing->renderer->draw({*prepared.camera, work.pose->camera_from_world, time_s(work.frame)}, cuts_m, layers);
-    });
-  }
-  passes::Layer distorted;
-  if (lens) {
-    line.add(Group::Composite, "lens", [&](Work& work) {
-      for (passes::Layer& layer : work.drawn()) {
-        lens->distort(layer, distorted);
-        std::swap(layer, distorted);
-      }
-    });
-  }
-  if (watcher) line.add(Group::Composite, "watch", [&](Work& work) { watcher->drawn(work); });
-  FramePool pool;
-  passes::Blender blender;
-  std::optional<World> world;
-  // A world in the plate's place doesn't fade with what was drawn into it.
-  auto opacity = [&world](const Work& work) { return world ? 1.0 : work.pose ? work.pose->opacity : 0.0; };
-  Output output;
-  if (plan.runs("encode")) output = open_output(prepared, options, described);
-  std::optional<LayerFiles> layers;
-  if (plan.runs("layers")) {
-    layers.emplace(prepared, options, described);
-    line.add(Group::Composite, "layers", [&](Work& work) { layers->write(work, opacity(work)); });
-  }
-  if (plan.runs("merge")) {
-    if (plan.runs("background")) world.emplace(*scene.background, described);
-    line.add(Group::Composite, "merge", [&](Work& work) {
-      if (world) {
-        if (!drawing) empty_layers(work);
-        for (passes::Layer& layer : work.slices) passes::fade(layer, work.pose ? work.pose->opacity : 0.0);
-        passes::put_behind(world->next(), work.slices.back(), distorted);
-      }
-      passes::merge({work.slices, work.mattes, plan.runs("composite")}, work.layer);
-    });
-  }
-  if (plan.runs("composite")) {
-    require_blendable(described);
-    line.add(Group::Composite, "composite", [&](Work& work) {
-      if (work.layer.rect.empty()) return;
-      pool.make_writable(work.frame);
-      blender.blend(work.frame, work.layer, opacity(work));
-    });
-  }
-  if (plan.runs("unmultiply")) {
-    line.add(Group::Composite, "unmultiply",
-             [&](Work& work) { work.frame = straight_alpha_frame(work.frame, work.layer, opacity(work), pool); });
-  }
-  if (watcher) line.add(Group::Composite, "show", [&](Work& work) { watcher->finished(work); });
-  std::unique_ptr<sink::Sink> virtual_camera;
-  if (plan.runs("virtual-camera")) {
-    virtual_camera = open_virtual_camera(prepared, options, described);
-    line.add(Group::Composite, "virtual-camera", [&](Work& work) { virtual_camera->write(work.frame); });
-  }
-  line.add(Group::Encode, "encode", [&](Work& work) {
-    if (output.sink && !work.frame.repeated) output.sink->write(work.frame);
-    work.frame = {};
-    work.pose.reset();
-    spent.give_back(std::move(work));
-  });
-
-  const auto start = std::chrono::steady_clock::now();
-  const std::int64_t total = frames_expected(described, options);
-  const std::int64_t skipped = skip_to(*source, options.first_frame, stop);
-  const Watched watched(watcher, *source, line);
-  const Line::Drawn drawn_one = [&, done = std::int64_t{0}]() mutable {
-    if (progress) progress(++done, total);
-  };
-  result.frames = line.run(decoder(*source, options, stop, spent), drawn_one,
-                           described.live ? Pace::NewestFrame : Pace::EveryFrame);
-  result.interrupted = stop;
-  result.dropped = line.dropped();
-  if (const std::int64_t dropped = result.dropped.before + result.dropped.drawn; dropped > 0) {
-    result.notices.push_back(described.name + ": " + std::to_string(dropped) +
-                             " pictures came too fast and were left out");
-  }
-
-  if (result.frames == 0 && !result.interrupted) {
-    throw no_frame_error(described, options, skipped);
-  }
-  const bool all_there = !result.interrupted && !described.live;
-  if (plan.runs("draw") && result.frames > 0 && result.posed_frames == 0 && all_there) {
-    throw no_pose_error(prepared, described, result.frames);
-  }
-  for (sink::Sink* each : {output.sink.get(), virtual_camera.get()}) {
-    if (each == nullptr) continue;
-    each->finish();
-    if (!each->notice().empty()) result.notices.push_back(each->notice());
-  }
-  if (layers) {
-    for (std::string& notice : layers->finish()) result.notices.push_back(std::move(notice));
-  }
-  result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  if (!source->damage().empty()) result.notices.push_back(source->damage());
-  result.stages = line.reports();
-  return result;
+  return Run(prepared, options, stop, watcher).go(progress);
 }
 
 }  // namespace rinkaku::pipeline

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <set>
 
+#include "pipeline/objects/region_use.h"
+
 namespace rinkaku::pipeline {
 namespace {
 
@@ -261,12 +263,6 @@ const std::vector<Kind>& kinds() {
 
 bool Plan::runs(std::string_view name) const {
   return std::any_of(stages.begin(), stages.end(), [name](const Stage& s) { return s.name == name && s.runs; });
-}
-
-RegionUse region_use(const ObjectScene& object) {
-  if (!object.regions) return RegionUse::None;
-  const bool one_colour = object.colour && !object.toon && !object.outline && !object.fluffy;
-  return object.holdout || one_colour ? RegionUse::Cover : RegionUse::Faces;
 }
 
 Plan make_plan(const Scene& scene, const CameraModel* camera, const Request& request) {

@@ -31,14 +31,6 @@ struct Plan {
   bool runs(std::string_view stage) const;
 };
 
-/// What a region's lists are used for in drawing an object.
-enum class RegionUse {
-  None,   ///< drawn whole
-  Faces,  ///< which faces turn to the eye and where the contour runs; what is drawn is the same as without
-  Cover,  ///< the surface as well comes from the matte's or the depth's list, as nothing of its inside shows
-};
-RegionUse region_use(const ObjectScene& object);
-
 /// Walks back from the sink: a stage runs if a running stage reads its result and the scene gives it something to do.
 /// `camera` is null if the scene has none. Cheap; reads no file.
 Plan make_plan(const Scene& scene, const CameraModel* camera, const Request& request);

@@ -12,12 +12,12 @@
 #include "mesh/bounds.h"
 #include "pipeline/frame/error.h"
 #include "pipeline/gl/context.h"
-#include "pipeline/outline_passes.h"
+#include "pipeline/objects/outline_passes.h"
+#include "pipeline/objects/placement.h"
 #include "pipeline/passes/composite/straight_alpha.h"
 #include "pipeline/passes/layer_renderer.h"
 #include "pipeline/passes/toon/band_borders.h"
 #include "pipeline/passes/toon/toon_pass.h"
-#include "pipeline/placement.h"
 
 namespace rinkaku::pipeline {
 namespace {

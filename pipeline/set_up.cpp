@@ -8,12 +8,12 @@
 
 #include <sys/stat.h>
 
-#include "pipeline/layer_files.h"
 #include "pipeline/passes/composite/blend.h"
 #include "pipeline/passes/composite/straight_alpha.h"
 #include "pipeline/sink/output_names.h"
 #include "pipeline/sink/virtual_camera.h"
 #include "pipeline/source/v4l2/camera.h"
+#include "pipeline/stages/layer_files.h"
 #include "pipeline/track/camera_file.h"
 #include "pipeline/track/make_tracker.h"
 

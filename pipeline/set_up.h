@@ -6,11 +6,11 @@
 
 #include "pipeline/frame/error.h"
 #include "pipeline/frame/frame.h"
-#include "pipeline/made_folder.h"
 #include "pipeline/passes/layer.h"
 #include "pipeline/pipeline.h"
 #include "pipeline/sink/sink.h"
 #include "pipeline/source/source.h"
+#include "pipeline/stages/made_folder.h"
 #include "pipeline/track/tracker.h"
 
 namespace rinkaku::pipeline {

@@ -6,9 +6,9 @@
 #include <glm/matrix.hpp>
 
 #include "mesh/bounds.h"
-#include "pipeline/drawing.h"
 #include "pipeline/frame/error.h"
-#include "pipeline/placement.h"
+#include "pipeline/objects/drawing.h"
+#include "pipeline/objects/placement.h"
 #include "pipeline/set_up.h"
 
 namespace rinkaku::pipeline {

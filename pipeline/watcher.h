@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "pipeline/drawing.h"
 #include "pipeline/line.h"
+#include "pipeline/objects/drawing.h"
 #include "pipeline/scene/scene.h"
 #include "pipeline/source/source.h"
 #include "pipeline/track/tracker.h"

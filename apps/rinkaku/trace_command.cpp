@@ -5,8 +5,8 @@
 #include "apps/rinkaku/commands.h"
 #include "apps/rinkaku/json_output.h"
 #include "apps/rinkaku/picture_file.h"
-#include "pipeline/drawn_lines_file.h"
 #include "pipeline/files/pending_file.h"
+#include "pipeline/objects/drawn_lines_file.h"
 #include "pipeline/trace_lines.h"
 
 namespace rinkaku::app {

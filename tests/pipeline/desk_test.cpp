@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 #include <opencv2/imgproc.hpp>
 
-#include "pipeline/drawing.h"
+#include "pipeline/objects/drawing.h"
 #include "pipeline/passes/layer_renderer.h"
 #include "pipeline/pipeline.h"
 #include "pipeline/set_up.h"

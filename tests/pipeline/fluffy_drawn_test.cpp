@@ -10,8 +10,8 @@
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "pipeline/drawing.h"
 #include "pipeline/gl/context.h"
+#include "pipeline/objects/drawing.h"
 #include "pipeline/passes/layer_renderer.h"
 #include "pipeline/set_up.h"
 #include "tests/pipeline/made_by.h"

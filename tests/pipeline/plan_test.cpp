@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "pipeline/objects/region_use.h"
 #include "tests/support/test_data.h"
 
 namespace rinkaku::pipeline {

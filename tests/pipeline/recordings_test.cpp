@@ -8,9 +8,9 @@
 #include <opencv2/aruco.hpp>
 
 #include "mesh/bounds.h"
-#include "pipeline/drawing.h"
 #include "pipeline/frame/camera_model.h"
-#include "pipeline/placement.h"
+#include "pipeline/objects/drawing.h"
+#include "pipeline/objects/placement.h"
 #include "pipeline/set_up.h"
 #include "pipeline/track/board.h"
 #include "tests/pipeline/shot_folder.h"

@@ -1,5 +1,5 @@
 // Objects that are drawn by what was baked for the eye's region.
-#include "pipeline/regions.h"
+#include "pipeline/objects/regions.h"
 
 #include <cmath>
 #include <cstring>

@@ -3,7 +3,7 @@
 
 #include "mesh/bounds.h"
 #include "mesh/import.h"
-#include "pipeline/placement.h"
+#include "pipeline/objects/placement.h"
 #include "pipeline/scene/scene.h"
 #include "pipeline/track/camera_file.h"
 #include "pipeline/track/pose_file.h"

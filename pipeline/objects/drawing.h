@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "mesh/import.h"
+#include "pipeline/objects/regions.h"
 #include "pipeline/passes/layer.h"
-#include "pipeline/regions.h"
 #include "pipeline/scene/scene.h"
 #include "water/section.h"
 

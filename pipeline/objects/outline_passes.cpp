@@ -1,4 +1,4 @@
-#include "pipeline/outline_passes.h"
+#include "pipeline/objects/outline_passes.h"
 
 #include <algorithm>
 #include <array>
@@ -17,8 +17,8 @@
 #include "outline/styles/inverted_hull_pass.h"
 #include "outline/styles/picture_lines_pass.h"
 #include "outline/styles/stroke_pass.h"
-#include "pipeline/drawn_lines_file.h"
-#include "pipeline/texture_file.h"
+#include "pipeline/objects/drawn_lines_file.h"
+#include "pipeline/objects/texture_file.h"
 
 namespace rinkaku::pipeline {
 namespace {

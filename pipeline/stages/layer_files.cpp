@@ -1,4 +1,4 @@
-#include "pipeline/layer_files.h"
+#include "pipeline/stages/layer_files.h"
 
 #include <cctype>
 #include <cstring>

@@ -1,4 +1,4 @@
-#include "pipeline/small_picture.h"
+#include "pipeline/stages/small_picture.h"
 
 #include <algorithm>
 #include <cstring>

@@ -1,4 +1,4 @@
-#include "pipeline/made_folder.h"
+#include "pipeline/stages/made_folder.h"
 
 #include <system_error>
 

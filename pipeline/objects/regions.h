@@ -10,8 +10,8 @@
 
 #include "mesh/bounds.h"
 #include "mesh/mesh.h"
+#include "pipeline/objects/region_use.h"
 #include "pipeline/passes/object_shape.h"
-#include "pipeline/plan.h"
 
 namespace rinkaku::pipeline {
 

@@ -1,4 +1,4 @@
-#include "pipeline/drawn_lines_file.h"
+#include "pipeline/objects/drawn_lines_file.h"
 
 #include <charconv>
 #include <cmath>

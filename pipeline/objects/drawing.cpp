@@ -1,4 +1,4 @@
-#include "pipeline/drawing.h"
+#include "pipeline/objects/drawing.h"
 
 #include <filesystem>
 #include <functional>
@@ -11,16 +11,16 @@
 
 #include <glm/vec3.hpp>
 
-#include "pipeline/animated.h"
-#include "pipeline/fluff.h"
 #include "pipeline/gl/context.h"
-#include "pipeline/in_parallel.h"
-#include "pipeline/outline_passes.h"
+#include "pipeline/objects/animated.h"
+#include "pipeline/objects/fluff.h"
+#include "pipeline/objects/in_parallel.h"
+#include "pipeline/objects/outline_passes.h"
+#include "pipeline/objects/placement.h"
 #include "pipeline/passes/holdout/holdout_pass.h"
 #include "pipeline/passes/layer_renderer.h"
 #include "pipeline/passes/toon/band_borders.h"
 #include "pipeline/passes/toon/toon_pass.h"
-#include "pipeline/placement.h"
 
 namespace rinkaku::pipeline {
 namespace {

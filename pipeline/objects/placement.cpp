@@ -1,4 +1,4 @@
-#include "pipeline/placement.h"
+#include "pipeline/objects/placement.h"
 
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/trigonometric.hpp>

@@ -1,4 +1,4 @@
-#include "pipeline/regions.h"
+#include "pipeline/objects/regions.h"
 
 #include <algorithm>
 #include <array>

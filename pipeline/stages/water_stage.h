@@ -4,10 +4,10 @@
 #include <string>
 #include <vector>
 
-#include "pipeline/drawing.h"
 #include "pipeline/frame/camera_model.h"
 #include "pipeline/frame/frame.h"
 #include "pipeline/frame/rigid_transform.h"
+#include "pipeline/objects/drawing.h"
 #include "pipeline/scene/scene.h"
 
 namespace rinkaku::pipeline {

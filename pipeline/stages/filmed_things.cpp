@@ -1,4 +1,4 @@
-#include "pipeline/filmed_things.h"
+#include "pipeline/stages/filmed_things.h"
 
 #include <algorithm>
 #include <limits>

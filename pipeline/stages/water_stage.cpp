@@ -1,4 +1,4 @@
-#include "pipeline/water_stage.h"
+#include "pipeline/stages/water_stage.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,8 +8,8 @@
 #include <utility>
 
 #include "pipeline/passes/layer_renderer.h"
-#include "pipeline/small_picture.h"
-#include "pipeline/water_set_up.h"
+#include "pipeline/stages/small_picture.h"
+#include "pipeline/stages/water_set_up.h"
 #include "water/pass/water_pass.h"
 #include "water/waterline.h"
 

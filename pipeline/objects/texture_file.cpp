@@ -1,4 +1,4 @@
-#include "pipeline/texture_file.h"
+#include "pipeline/objects/texture_file.h"
 
 #include <cstddef>
 #include <cstring>

@@ -1,4 +1,4 @@
-#include "pipeline/fluff.h"
+#include "pipeline/objects/fluff.h"
 
 #include <memory>
 #include <numbers>
@@ -11,7 +11,7 @@
 #include "outline/fluffy/fur_textures.h"
 #include "outline/fluffy/pass/fluffy_pass.h"
 #include "outline/fluffy/selection.h"
-#include "pipeline/texture_file.h"
+#include "pipeline/objects/texture_file.h"
 
 namespace rinkaku::pipeline {
 namespace {

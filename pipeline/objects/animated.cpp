@@ -1,4 +1,4 @@
-#include "pipeline/animated.h"
+#include "pipeline/objects/animated.h"
 
 #include <algorithm>
 #include <cstddef>

@@ -1,4 +1,4 @@
-#include "pipeline/world.h"
+#include "pipeline/stages/world.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,10 +1,10 @@
-#include "pipeline/water_set_up.h"
+#include "pipeline/stages/water_set_up.h"
 
 #include <memory>
 #include <variant>
 
 #include "pipeline/frame/error.h"
-#include "pipeline/small_picture.h"
+#include "pipeline/stages/small_picture.h"
 #include "pipeline/track/locked.h"
 #include "pipeline/track/pose_file.h"
 
