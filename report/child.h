@@ -11,7 +11,7 @@ struct ChildRun {
   int status = -1;  ///< exit status; 128 + the signal that ended it; 127 if there is no such program
   double wall_ms = 0;
   double cpu_ms = 0;    ///< of all its threads
-  double peak_mib = 0;  ///< the most memory it had resident
+  double peak_mib = 0;  ///< the most memory it had resident, as seen every 5 ms; 0 if it ended before that
 };
 
 /// Runs a program to its end, with nothing to read. What it prints goes to `prints` (over what is there), or nowhere.

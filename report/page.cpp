@@ -34,10 +34,16 @@ std::string section_html(const PageSection& part) {
     out += "<figure>\n<h3>" + escaped(plot.title) + "</h3>\n<div class=\"wide\">" + part.svgs[i] +
            "</div>\n<figcaption>" + escaped(plot.says) + "</figcaption>\n</figure>\n";
   }
+  // A long table would push the next section off a phone; it is in the CSV file in any case.
+  constexpr std::size_t longest = 24;
+  const std::size_t rows = part.section.table.rows.size();
+  if (rows > longest) out += "<details><summary>Table of " + std::to_string(rows) + " rows</summary>\n";
   out += table_html(part.section.table);
-  if (part.section.repetitions > 0) {
+  if (rows > longest) out += "</details>\n";
+  if (part.section.repetitions == 1) out += "<p class=\"note\">Each time was taken once.</p>\n";
+  if (part.section.repetitions > 1) {
     out += "<p class=\"note\">Times are medians of " + std::to_string(part.section.repetitions) +
-           " repetitions; low and high are their quartiles.</p>\n";
+           " repetitions; low and high, where given, are their quartiles.</p>\n";
   }
   for (const std::string& note : part.section.notes) out += "<p class=\"note\">" + escaped(note) + "</p>\n";
   return out + "<p><a href=\"" + escaped(part.id) + ".csv\">" + escaped(part.id) + ".csv</a></p>\n</section>\n";

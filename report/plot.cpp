@@ -17,7 +17,7 @@
 namespace rinkaku::report {
 namespace {
 
-constexpr double kWidth_px = 760, kHeight_px = 470, kLeft_px = 76, kRight_px = 22, kTop_px = 14, kBottom_px = 58;
+constexpr double kWidth_px = 760, kHeight_px = 470, kLeft_px = 76, kRight_px = 22, kTop_px = 14, kBottom_px = 60;
 constexpr int kFont_px = 13, kLabel_px = 12;
 constexpr std::size_t kLargestPlot_bytes = 16 << 20;
 // What is black on white and white on black; gnuplot knows no CSS.
@@ -34,12 +34,14 @@ struct Sheet {
   }
 };
 
+bool has_spread(const Point& p) { return p.x_high > p.x_low && p.x_low > 0; }
+
 Sheet sheet_of(const Plot& plot) {
   std::vector<double> xs, ys;
   for (const Series& series : plot.series) {
     for (const Point& p : series.points) {
       xs.push_back(p.x), ys.push_back(p.y);
-      if (p.x_high > p.x_low && p.x_low > 0) xs.push_back(p.x_low), xs.push_back(p.x_high);
+      if (has_spread(p)) xs.push_back(p.x_low), xs.push_back(p.x_high);
     }
   }
   return {axis_scale(plot.x, xs), axis_scale(plot.y, ys)};
@@ -65,7 +67,20 @@ void write_axis(std::ostream& out, const char* name, const AxisScale& scale, con
     out << (i > 0 ? ", " : "") << '"' << mark.text << "\" " << mark.at << (mark.text.empty() ? " 1" : "");
   }
   out << ") textcolor rgb \"" << kInk << "\"\n";
-  out << "set " << name << "label \"" << plain(axis.title) << "\" textcolor rgb \"" << kInk << "\"\n";
+  out << "set " << name << "label \"" << plain(axis.title) << "\" textcolor rgb \"" << kInk << "\""
+      << (*name == 'x' ? " offset 0,0.4" : "") << "\n";
+}
+
+// The front as a line of steps: what lies above and to the right of it is beaten.
+std::vector<glm::dvec2> front_of(const Plot& plot, const Sheet& sheet) {
+  std::vector<glm::dvec2> points, front;
+  for (const Series& series : plot.series) {
+    for (const Point& p : series.points) points.emplace_back(p.x, p.y);
+  }
+  for (const std::size_t i : pareto_front(points)) {
+    front.emplace_back(sheet.x.shown(points[i].x), sheet.y.shown(points[i].y));
+  }
+  return front;
 }
 
 void write_labels(std::ostream& out, const Plot& plot, const Sheet& sheet) {
@@ -81,12 +96,22 @@ void write_labels(std::ostream& out, const Plot& plot, const Sheet& sheet) {
       const glm::dvec2 at = sheet.pixel(p.x, p.y);
       field.marks.push_back(at);
       line.push_back(at);
+      if (has_spread(p)) field.lines.push_back({sheet.pixel(p.x_low, p.y), sheet.pixel(p.x_high, p.y)});
       if (!p.label.empty()) wishes.push_back({at, p.label}), colours.push_back(s);
     }
     if (series.joined) {
       if (!line.empty()) wishes.push_back({line.back(), series.name}), colours.push_back(s);
       field.lines.push_back(std::move(line));
     }
+  }
+  if (plot.front) {
+    std::vector<glm::dvec2> steps;
+    for (const glm::dvec2& p : front_of(plot, sheet)) {
+      const glm::dvec2 at = sheet.pixel(p.x, p.y);
+      if (!steps.empty()) steps.emplace_back(at.x, steps.back().y);
+      steps.push_back(at);
+    }
+    field.lines.push_back(std::move(steps));
   }
   const std::vector<LabelPlace> places = place_labels(wishes, field);
   const auto screen = [](const glm::dvec2& p) {
@@ -112,18 +137,6 @@ void write_labels(std::ostream& out, const Plot& plot, const Sheet& sheet) {
   }
 }
 
-// The front as a line of steps: what lies above and to the right of it is beaten.
-std::vector<glm::dvec2> front_of(const Plot& plot, const Sheet& sheet) {
-  std::vector<glm::dvec2> points, front;
-  for (const Series& series : plot.series) {
-    for (const Point& p : series.points) points.emplace_back(p.x, p.y);
-  }
-  for (const std::size_t i : pareto_front(points)) {
-    front.emplace_back(sheet.x.shown(points[i].x), sheet.y.shown(points[i].y));
-  }
-  return front;
-}
-
 std::string script(const Plot& plot, const Sheet& sheet, const std::string& output) {
   std::ostringstream out;
   out.precision(9);
@@ -143,7 +156,7 @@ std::string script(const Plot& plot, const Sheet& sheet, const std::string& outp
     out << "$front << EOD\n";
     for (const glm::dvec2& p : front) out << p.x << ' ' << p.y << "\n";
     out << "EOD\n";
-    if (front.size() > 1) draw("$front using 1:2 with steps lw 5 lc rgb \"#e3b341\" dt 1");
+    if (front.size() > 1) draw("$front using 1:2 with steps lw 3.5 lc rgb \"#e3b341\" dt 1");
     draw("$front using 1:2 with points pt 6 ps 1.7 lw 2 lc rgb \"#e3b341\"");
   }
   for (std::size_t s = 0; s < plot.series.size(); ++s) {
@@ -153,7 +166,7 @@ std::string script(const Plot& plot, const Sheet& sheet, const std::string& outp
     bool bars = false;
     out << data << " << EOD\n";
     for (const Point& p : series.points) {
-      const bool spread = p.x_high > p.x_low && p.x_low > 0;
+      const bool spread = has_spread(p);
       bars |= spread;
       out << sheet.x.shown(p.x) << ' ' << sheet.y.shown(p.y) << ' ' << (spread ? p.x_low : sheet.x.shown(p.x)) << ' '
           << (spread ? p.x_high : sheet.x.shown(p.x)) << "\n";

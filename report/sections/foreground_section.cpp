@@ -110,7 +110,7 @@ Section foreground_section(const Settings& settings) {
   const auto video = source::open(recorded(settings, "tripod/video.mp4").string());
   const auto truths = source::open(recorded(settings, "tripod/matte.mkv").string());
   std::vector<Way> ways = ways_of(recorded(settings, "tripod/clean.jpg").string());
-  const int frames = settings.quick ? 50 : 135, every = settings.quick ? 10 : 4;
+  const int frames = settings.quick ? 40 : 135, every = settings.quick ? 10 : 4;
   int seen = 0;
   for (; seen < frames; ++seen) {
     check_interrupted(settings);

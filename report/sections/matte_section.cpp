@@ -145,7 +145,9 @@ std::vector<Reduced> reduce_all(const sil::Surface& surface, const std::vector<s
   std::vector<Reduced> all;
   for (const auto& [name, reduce] :
        {std::pair{"meshopt", &sil::reduce_with_meshopt}, std::pair{"quadrics", &sil::reduce_with_quadrics}}) {
-    for (const double part : {0.5, like_regions, 0.1}) {
+    // As many as the finest regions have on average, and far fewer.
+    for (const double part : {like_regions, 0.25, 0.1}) {
+      if (part < like_regions && like_regions - part < 0.05) continue;
       const auto target = static_cast<std::size_t>(part * static_cast<double>(full.size() / 3));
       char label[64];
       std::snprintf(label, sizeof label, "%s %.0f %%", name, part * 100);

@@ -20,6 +20,18 @@ Section tracking_section(const Settings& settings);
 /// Mattes of filmed things.
 Section foreground_section(const Settings& settings);
 
+/// Every style of line around a ball.
+Section outline_section(const Settings& settings);
+
+/// Particles carried by a flow, by several integrators.
+Section water_section(const Settings& settings);
+
+/// Whole programs against sizes, beside ffmpeg.
+Section whole_section(const Settings& settings);
+
+/// What each thing that a scene may have costs beyond a scene without it.
+Section left_out_section(const Settings& settings);
+
 /// A section by name.
 struct ListedSection {
   const char* id;  ///< a word

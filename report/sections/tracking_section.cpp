@@ -190,8 +190,9 @@ Section tracking_section(const Settings& settings) {
   section.plots[0].says =
       "A board pins the pose down better than one of its markers. On the front: " + front_names(section.plots[0]) + ".";
   section.plots[1].says =
-      "Smoothing costs hardly any time and takes tremble away, at the price of a little lag. On the "
-      "front: " +
+      "This includes what smoothing lags behind the tremor of the hand, which is real motion here; smoothing pays "
+      "where "
+      "poses are noisier than the camera moves. On the front: " +
       front_names(section.plots[1]) + ".";
   return section;
 }

@@ -4,6 +4,7 @@
 #include <iterator>
 
 #include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
 #include <gtest/gtest.h>
 
 #include "mesh/topology.h"
