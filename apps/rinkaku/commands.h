@@ -160,4 +160,15 @@ struct ScoreCall {
 };
 int score(const ScoreCall& call);
 
+struct ReportCall {
+  std::string output;
+  std::string recordings;  ///< empty: looked for
+  std::string sections;    ///< "a,b,c", or empty: all
+  std::int64_t seed = 1;
+  bool quick = false;
+  bool force = false;
+  bool json = false;
+};
+int report(const ReportCall& call);
+
 }  // namespace rinkaku::app

@@ -35,6 +35,7 @@ struct CommandLine {
   MatteCall matte;
   VerifyCall verify;
   ScoreCall score;
+  ReportCall report;
 
   CommandLine() {
     app.name("rinkaku");
@@ -56,6 +57,7 @@ struct CommandLine {
     add_matte();
     add_verify();
     add_score();
+    add_report();
   }
 
   CLI::App* add(const char* name, const char* description, const char* example, std::function<int()> command) {
@@ -311,6 +313,19 @@ struct CommandLine {
                         [&c] { return rinkaku::app::score(c); });
     sub->add_option("MATTE", c.matte, "Grey picture, or one with alpha")->required();
     sub->add_option("TRUTH", c.truth, "The same of the truth, of the same size")->required();
+    add_json(sub, c.json);
+  }
+
+  void add_report() {
+    ReportCall& c = report;
+    CLI::App* sub = add("report", "Measure error against run time on this machine: a page with plots, and tables.",
+                        "rinkaku report -o report", [&c] { return rinkaku::app::report(c); });
+    sub->add_option("-o,--output", c.output, "Folder for index.html and a CSV file for each section")->required();
+    sub->add_flag("--quick", c.quick, "Fewer sizes and repetitions, in under a minute");
+    sub->add_option("--sections", c.sections, "Only these, separated by commas");
+    sub->add_option("--recordings", c.recordings, "The folder of the project's recordings, where it isn't found");
+    sub->add_option("--seed", c.seed, "Of all that is random")->check(CLI::NonNegativeNumber)->capture_default_str();
+    add_force(sub, c.force);
     add_json(sub, c.json);
   }
 };
