@@ -1,7 +1,9 @@
 #include "apps/rinkaku/grey_image.h"
 
+#include <algorithm>
 #include <utility>
 
+#include "pipeline/frame/colour_matrix.h"
 #include "pipeline/frame/error.h"
 #include "pipeline/source/picture_file.h"
 
@@ -56,6 +58,15 @@ matte::GreyMatte read_grey(const std::string& path) {
     throw input_error(path, "is a colour picture without alpha", "give a grey one, or one with an alpha channel");
   }
   return red;
+}
+
+matte::GreyMatte grey_of(const Frame& frame) {
+  if (frame.format.pixels.has_alpha) return matte_of(frame, frame.format.pixels.components - 1);
+  matte::GreyMatte grey = matte_of(frame, 0);
+  if (frame.format.pixels.model == ColourModel::Yuv && !is_full_range(frame.format)) {
+    for (float& value : grey.alpha) value = std::clamp((value * 255 - 16) / 219, 0.0f, 1.0f);
+  }
+  return grey;
 }
 
 }  // namespace rinkaku::app

@@ -311,7 +311,8 @@ struct CommandLine {
     ScoreCall& c = score;
     CLI::App* sub = add("score", "Measure how far a matte is from the true one.", "rinkaku score matte.png truth.png",
                         [&c] { return rinkaku::app::score(c); });
-    sub->add_option("MATTE", c.matte, "Grey picture, or one with alpha")->required();
+    sub->add_option("MATTE", c.matte, "Grey picture, or one with alpha; or a video or image sequence (m/%04d.png)")
+        ->required();
     sub->add_option("TRUTH", c.truth, "The same of the truth, of the same size")->required();
     add_json(sub, c.json);
   }

@@ -23,7 +23,9 @@ void keep_within(const PixelRect& rect, Matte& matte) {
 Foreground::Foreground(std::vector<std::unique_ptr<MatteEstimator>> estimators, const ForegroundOptions& options)
     : estimators_(std::move(estimators)),
       options_(options),
-      own_colours_known_(estimators_.size() == 1 && estimators_.front()->knows_behind()) {}
+      own_colours_known_(estimators_.size() == 1 && estimators_.front()->knows_behind() && !options.refine) {
+  if (options.refine) refinement_.emplace();
+}
 
 void Foreground::combine(const Matte& with, Matte& matte) const {
   using Combine = ForegroundOptions::Combine;
@@ -52,7 +54,10 @@ void Foreground::find(const Frame& frame, Matte& matte) {
   }
   if (estimators_.size() > 1) find_rect(matte);
   if (options_.within) keep_within(*options_.within, matte);
-  if (!own_colours_known_) own_colours_.find(reader_.read(frame), matte);
+  if (own_colours_known_) return;
+  const Picture& picture = reader_.read(frame);
+  if (refinement_) refinement_->refine(picture, matte);
+  own_colours_.find(picture, matte);
 }
 
 }  // namespace rinkaku::matte

@@ -8,6 +8,7 @@
 #include "pipeline/matte/estimator.h"
 #include "pipeline/matte/own_colour.h"
 #include "pipeline/matte/picture.h"
+#include "pipeline/matte/refinement.h"
 
 namespace rinkaku::matte {
 
@@ -17,6 +18,8 @@ struct ForegroundOptions {
   enum class Combine { Maximum, Minimum, Confidence } combine = Combine::Maximum;
   /// Nothing outside counts ("garbage matte").
   std::optional<PixelRect> within{};
+  /// Borders are moved to the plate's own, and kept steady.
+  bool refine = false;
 };
 
 /// A filmed thing: one or several ways to find its matte, and what makes one good matte of them.
@@ -35,6 +38,7 @@ class Foreground {
   std::vector<std::unique_ptr<MatteEstimator>> estimators_;
   ForegroundOptions options_;
   bool own_colours_known_;
+  std::optional<Refinement> refinement_;
   PictureReader reader_;
   OwnColours own_colours_;
   Matte other_;

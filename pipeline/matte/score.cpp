@@ -93,4 +93,13 @@ Score score(const GreyMatte& matte, const GreyMatte& truth) {
   return out;
 }
 
+double flicker(const GreyMatte& before, const GreyMatte& matte, const GreyMatte& truth_before, const GreyMatte& truth) {
+  double sum = 0;
+  for (std::size_t i = 0; i < matte.alpha.size(); ++i) {
+    const double apart = (matte.alpha[i] - before.alpha[i]) - (truth.alpha[i] - truth_before.alpha[i]);
+    sum += apart * apart;
+  }
+  return std::sqrt(sum / static_cast<double>(matte.alpha.size()));
+}
+
 }  // namespace rinkaku::matte

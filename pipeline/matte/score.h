@@ -34,4 +34,9 @@ struct Score {
 /// diagonal. Precondition: both have the same size, at least 1 x 1. Cost: about 0.2 microseconds a pixel.
 Score score(const GreyMatte& matte, const GreyMatte& truth);
 
+/// How unlike the truth a matte changes from one frame to the next: the root of the mean over the pixels of (change of
+/// the matte - change of the truth) squared; 0 if it is always off by the same. This is dtSSD of Erofeev et al.,
+/// "Perceptually motivated benchmark for video matting", 2015, by the pixel. Precondition: all four have one size.
+double flicker(const GreyMatte& before, const GreyMatte& matte, const GreyMatte& truth_before, const GreyMatte& truth);
+
 }  // namespace rinkaku::matte

@@ -12,7 +12,7 @@ namespace {
 using toml::Limits;
 using toml::Table;
 
-constexpr std::string_view all_methods = "\"chroma\", \"difference\" or \"file\"";
+constexpr std::string_view all_methods = "\"chroma\", \"difference\", \"file\" or \"segmentation\"";
 
 // "difference", or several: ["difference", "file"].
 std::vector<std::string> read_methods(const Table& foreground) {
@@ -69,10 +69,16 @@ FileMatteScene read_file(const Table& foreground) {
   return {image_pattern(file, "images", "%*?[", "mattes/%04d.png")};
 }
 
+SegmentationScene read_segmentation(const std::optional<Table>& table) {
+  if (!table || !table->has("model")) return {};
+  return {existing_file(*table, "model").string()};
+}
+
 ForegroundScene::Method read_method(const Table& foreground, const std::string& name) {
   if (name == "chroma") return read_chroma(foreground.table("chroma"));
   if (name == "difference") return read_difference(foreground.table("difference"));
   if (name == "file") return read_file(foreground);
+  if (name == "segmentation") return read_segmentation(foreground.table("segmentation"));
   throw foreground.wrong("method", all_methods);
 }
 
@@ -92,13 +98,14 @@ PixelRect read_within(const Table& foreground) {
 }  // namespace
 
 toml::Schema foreground_schema() {
-  return {
-      {.path = "foreground",
-       .keys = {"name", "method", "combine", "chroma", "difference", "file", "distance_m", "on_ground", "within_px"},
-       .repeated = true},
-      {.path = "foreground.chroma", .keys = {"key", "clip_low", "clip_high", "hue_deg", "despill"}},
-      {.path = "foreground.difference", .keys = {"clean", "threshold", "deepest_shadow", "memory_frames"}},
-      {.path = "foreground.file", .keys = {"video", "images"}}};
+  return {{.path = "foreground",
+           .keys = {"name", "method", "combine", "chroma", "difference", "file", "segmentation", "refine", "distance_m",
+                    "on_ground", "within_px"},
+           .repeated = true},
+          {.path = "foreground.chroma", .keys = {"key", "clip_low", "clip_high", "hue_deg", "despill"}},
+          {.path = "foreground.difference", .keys = {"clean", "threshold", "deepest_shadow", "memory_frames"}},
+          {.path = "foreground.file", .keys = {"video", "images"}},
+          {.path = "foreground.segmentation", .keys = {"model"}}};
 }
 
 ForegroundScene read_foreground(const Table& foreground) {
@@ -107,7 +114,7 @@ ForegroundScene read_foreground(const Table& foreground) {
   scene.name = foreground.text("name").value_or("foreground");
   const std::vector<std::string> methods = read_methods(foreground);
   for (const std::string& name : methods) scene.methods.push_back(read_method(foreground, name));
-  for (const std::string_view table : {"chroma", "difference", "file"}) {
+  for (const std::string_view table : {"chroma", "difference", "file", "segmentation"}) {
     if (foreground.has(table) && std::find(methods.begin(), methods.end(), table) == methods.end()) {
       throw foreground.error_at(table, "isn't among the methods", "leave it out, or add it to 'method'");
     }
@@ -121,6 +128,9 @@ ForegroundScene read_foreground(const Table& foreground) {
           {{"maximum", Combine::Maximum}, {"minimum", Combine::Minimum}, {"confidence", Combine::Confidence}})
           .value_or(scene.options.combine);
   if (foreground.has("within_px")) scene.options.within = read_within(foreground);
+  // A network's borders are as coarse as its pixels.
+  const bool coarse = std::find(methods.begin(), methods.end(), "segmentation") != methods.end();
+  scene.options.refine = foreground.flag("refine").value_or(coarse);
   foreground.exclude("distance_m", "on_ground");
   scene.distance_m = foreground.number("distance_m", Limits::above(0, 1e6));
   scene.on_ground = foreground.flag("on_ground").value_or(false);

@@ -22,11 +22,14 @@ struct DifferenceMatteScene {
 struct FileMatteScene {
   std::string input;  ///< video or image sequence
 };
+struct SegmentationScene {
+  std::string model;  ///< empty: the one that scripts/fetch-model installs
+};
 
 /// [[foreground]]: a filmed thing that CG can be behind.
 struct ForegroundScene {
   std::string name;
-  using Method = std::variant<matte::ChromaOptions, DifferenceMatteScene, FileMatteScene>;
+  using Method = std::variant<matte::ChromaOptions, DifferenceMatteScene, FileMatteScene, SegmentationScene>;
   std::vector<Method> methods;
   matte::ForegroundOptions options;
   /// How far away it is, along the camera's axis; empty: it stands on the ground, or nothing depends on it.

@@ -7,6 +7,8 @@
 
 #include "pipeline/frame/error.h"
 #include "pipeline/matte/file_matte.h"
+#include "pipeline/matte/person_network.h"
+#include "pipeline/matte/segmentation.h"
 
 namespace rinkaku::pipeline {
 namespace {
@@ -40,6 +42,14 @@ struct MakeEstimator {
   std::unique_ptr<matte::MatteEstimator> operator()(const FileMatteScene& scene) const {
     std::shared_ptr<source::Source> source = source::open(scene.input);
     return std::make_unique<matte::FileMatte>(scene.input, [source] { return source->next(); });
+  }
+  std::unique_ptr<matte::MatteEstimator> operator()(const SegmentationScene& scene) const {
+    const auto network =
+        std::make_shared<matte::PersonNetwork>(scene.model.empty() ? matte::installed_model() : scene.model);
+    return std::make_unique<matte::SegmentationMatte>(
+        [network](const matte::Picture& picture, const PixelRect& part, cv::Mat& likely) {
+          network->find(picture, part, likely);
+        });
   }
 };
 

@@ -1,4 +1,6 @@
 // bake, matte, verify and score, as a user calls them, one on the other's output.
+#include <cmath>
+
 #include "tests/apps/cli_tools.h"
 
 namespace rinkaku {
@@ -120,6 +122,37 @@ TEST(MatteCommands, MattesOfTwoSizesAreNotScored) {
   const test::CliResult got = test::run_rinkaku(folder, "score a.png b.png");
   EXPECT_EQ(got.status, 2);
   EXPECT_TRUE(contains(got.err, "32x24")) << got.err;
+}
+
+// The first frame's matte is the truth itself, the second's is another.
+TEST(MatteCommands, SequencesAreScoredInTheMeanAndByTheirFlicker) {
+  const test::ShotFolder folder;
+  folder.write("ball.obj", ball());
+  const auto draw = [&](const std::string& name, const std::string& eye) {
+    const std::string call = "matte ball.obj -o " + name + " --size 32x24 --target 0,0,0 --eye " + eye;
+    ASSERT_EQ(test::run_rinkaku(folder, call).status, 0);
+  };
+  draw("a0.png", "0,0,4");
+  draw("a1.png", "0,0,5");
+  draw("b0.png", "0,0,4");
+  draw("b1.png", "0,0,4");
+  const auto json = [&](const std::string& call) { return test::json_of(test::run_rinkaku(folder, call).out); };
+  const auto same = json("score a%d.png a%d.png --json");
+  EXPECT_EQ(same.at("frames"), 2);
+  EXPECT_EQ(same.at("mean").at("mse"), 0);
+  EXPECT_EQ(same.at("flicker"), 0);
+  const auto other = json("score a%d.png b%d.png --json");
+  const auto second = json("score a1.png b1.png --json");
+  EXPECT_EQ(other.at("each").at(0).at("mismatch_px"), 0);
+  EXPECT_EQ(other.at("each").at(1), second);
+  EXPECT_DOUBLE_EQ(other.at("mean").at("sad"), second.at("sad").get<double>() / 2);
+  // All that differs came with the second frame, so the change's mean square is the second frame's.
+  EXPECT_NEAR(other.at("flicker"), std::sqrt(second.at("mse").get<double>()), 1e-6);
+
+  draw("b2.png", "0,0,4");
+  const test::CliResult longer = test::run_rinkaku(folder, "score a%d.png b%d.png");
+  EXPECT_EQ(longer.status, 2);
+  EXPECT_TRUE(contains(longer.err, "ends after 2 frames")) << longer.err;
 }
 
 }  // namespace

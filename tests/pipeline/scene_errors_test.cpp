@@ -406,16 +406,19 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(
         BadScene{"ForegroundWithoutMethod", plate + "[[foreground]]\nname = \"x\"\n",
                  "DIR/scene.toml:4:1: 'method' in [[foreground]] is missing"},
-        BadScene{
-            "UnknownMethod", plate + "[[foreground]]\nmethod = \"magic\"\n",
-            "DIR/scene.toml:5:10: 'method' in [[foreground]] must be \"chroma\", \"difference\" or \"file\", found "
-            "the text \"magic\""},
+        BadScene{"UnknownMethod", plate + "[[foreground]]\nmethod = \"magic\"\n",
+                 "DIR/scene.toml:5:10: 'method' in [[foreground]] must be \"chroma\", \"difference\", \"file\" or "
+                 "\"segmentation\", found the text \"magic\""},
         BadScene{"MethodTwice", plate + "[[foreground]]\nmethod = [\"chroma\", \"chroma\"]\n",
                  "DIR/scene.toml:5:10: 'method' in [[foreground]] names 'chroma' twice; leave one out"},
         BadScene{
             "TableOfAnotherMethod", plate + "[[foreground]]\nmethod = \"chroma\"\ndifference = { threshold = 3 }\n",
             "DIR/scene.toml:6:14: 'difference' in [[foreground]] isn't among the methods; leave it out, or add it to "
             "'method'"},
+        BadScene{"ModelThatIsMissing",
+                 plate + "[[foreground]]\nmethod = \"segmentation\"\nsegmentation = { model = \"no.onnx\" }\n",
+                 "DIR/scene.toml:6:26: 'model' in segmentation of [[foreground]] names a file that doesn't exist: "
+                 "DIR/no.onnx"},
         BadScene{"CombineOfOne", plate + "[[foreground]]\nmethod = \"chroma\"\ncombine = \"minimum\"\n",
                  "DIR/scene.toml:6:11: 'combine' in [[foreground]] needs several methods; leave it out"},
         BadScene{

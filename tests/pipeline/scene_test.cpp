@@ -304,8 +304,14 @@ TEST(SceneFile, ForegroundSaysHowItsMatteIsFoundAndHowFarAwayItIs) {
                   "combine = \"minimum\"\nchroma = { key = \"#00ff00\", hue_deg = 40 }\n"
                   "difference = { clean = \"a.mp4\", threshold = 4 }\ndistance_m = 2.5\n"
                   "within_px = [1, 2, 30, 40]\n"
-                  "[[foreground]]\nmethod = \"file\"\nfile = { images = \"m/%d.png\" }\non_ground = true\n");
-  ASSERT_EQ(scene.foregrounds.size(), 2u);
+                  "[[foreground]]\nmethod = \"file\"\nfile = { images = \"m/%d.png\" }\non_ground = true\n"
+                  "[[foreground]]\nmethod = \"segmentation\"\nsegmentation = { model = \"a.mp4\" }\ndistance_m = 1\n"
+                  "[[foreground]]\nmethod = [\"chroma\", \"segmentation\"]\nrefine = false\ndistance_m = 1\n");
+  ASSERT_EQ(scene.foregrounds.size(), 4u);
+  EXPECT_EQ(std::get<SegmentationScene>(scene.foregrounds[2].methods[0]).model, (folder / "a.mp4").string());
+  EXPECT_TRUE(scene.foregrounds[2].options.refine);  // a network's are not
+  EXPECT_EQ(std::get<SegmentationScene>(scene.foregrounds[3].methods[1]).model, "");
+  EXPECT_FALSE(scene.foregrounds[3].options.refine);
   const ForegroundScene& man = scene.foregrounds[0];
   EXPECT_EQ(man.name, "man");
   ASSERT_EQ(man.methods.size(), 2u);
@@ -316,6 +322,7 @@ TEST(SceneFile, ForegroundSaysHowItsMatteIsFoundAndHowFarAwayItIs) {
   EXPECT_EQ(man.options.combine, matte::ForegroundOptions::Combine::Minimum);
   EXPECT_EQ(man.options.within, (PixelRect{1, 2, 30, 40}));
   EXPECT_EQ(man.distance_m, 2.5);
+  EXPECT_FALSE(man.options.refine);  // their borders are the plate's already
   EXPECT_TRUE(scene.foregrounds[1].on_ground);
   EXPECT_EQ(std::get<FileMatteScene>(scene.foregrounds[1].methods[0]).input, (folder / "m/%d.png").string());
   EXPECT_EQ((*scene.background->colour)[0], 1);

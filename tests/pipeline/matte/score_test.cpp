@@ -138,5 +138,15 @@ TEST(MatteScore, BoundaryMeasureByHand) {
   EXPECT_DOUBLE_EQ(matte::score(left_of(6, 4), left_of(4, 4)).boundary_f1, 2 * 0.6 * 0.75 / (0.6 + 0.75));
 }
 
+TEST(MatteScore, FlickerIsWhatChangesOtherwiseThanTheTruth) {
+  const auto even = [](float value) { return picture(4, 4, [=](int, int) { return value; }); };
+  EXPECT_EQ(matte::flicker(even(0.25f), even(0.25f), even(0), even(0)), 0) << "always off by the same";
+  EXPECT_EQ(matte::flicker(even(0.25f), even(0.75f), even(0), even(0.5f)), 0) << "changes as the truth does";
+  EXPECT_EQ(matte::flicker(even(0.25f), even(0.75f), even(0), even(0)), 0.5);
+  // Half of the pixels change by 0.5: the root of 0.25 / 2.
+  const GreyMatte half = picture(4, 4, [](int x, int) { return x < 2 ? 0.5f : 0.0f; });
+  EXPECT_DOUBLE_EQ(matte::flicker(even(0), half, even(0), even(0)), std::sqrt(0.125));
+}
+
 }  // namespace
 }  // namespace rinkaku
