@@ -22,9 +22,9 @@ class MovingFrame {
 
   const Frame& frame() const { return frame_; }
 
-  /// `points`: where all the mesh's welded points are now, in the object's coordinates. The frame is then that of a mesh
-  /// made so. A point none of whose faces has area keeps the normal it had. Allocates nothing. About 0.1 microseconds a
-  /// face of the fluffy part.
+  /// `points`: where all the mesh's welded points are now, in the object's coordinates. The frame is then that of a
+  /// mesh made so. A point none of whose faces has area keeps the normal it had. Allocates nothing. About 0.1
+  /// microseconds a face of the fluffy part.
   void move(std::span<const glm::vec3> points);
 
  private:
