@@ -14,6 +14,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "bench/water_scenes.h"
 #include "pipeline/gl/context.h"
 #include "pipeline/passes/layer_renderer.h"
 #include "water/depth_order.h"
@@ -33,62 +34,6 @@ double cpu_ms() {
 }
 double wall_ms() {
   return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
-
-// A river that fills a picture of 400 x 400, seen from a bank: two shores, inflow on the left, outflow on the right.
-struct River {
-  CameraModel camera{400, 400, 360, 360, 199.5, 199.5, {}};
-  RigidTransform camera_from_world;
-  std::unique_ptr<Surface> surface;
-  std::vector<ArrowKey> arrows;
-
-  River() {
-    // Looking along +y, 35 degrees down, from 3 m above the water.
-    const double tilt = std::numbers::pi / 2 + 35 * std::numbers::pi / 180;
-    const glm::dmat3 turn(glm::dvec3(1, 0, 0), glm::dvec3(0, std::cos(tilt), std::sin(tilt)),
-                          glm::dvec3(0, -std::sin(tilt), std::cos(tilt)));
-    camera_from_world.rotation = glm::normalize(glm::quat_cast(turn));
-    camera_from_world.translation_m = -(camera_from_world.rotation * glm::dvec3(0, 0, 3));
-    SurfaceOutline outline;
-    outline.corners = {{-6, 1.5, 0}, {6, 1.5, 0}, {8, 5, 0}, {9, 9, 0}, {2, 8.2, 0}, {-3, 9.4, 0}, {-9, 9, 0}};
-    outline.open_edges = {2, 6, 1};
-    surface = std::make_unique<Surface>("bench", outline, glm::dvec3(0, 0, 3));
-    const double px[12][4] = {{30, 330, 90, 335},   {150, 340, 215, 330}, {280, 345, 350, 360}, {60, 240, 110, 250},
-                              {170, 260, 225, 240}, {290, 240, 345, 255}, {40, 160, 70, 165},   {130, 150, 165, 140},
-                              {220, 165, 255, 160}, {320, 150, 350, 160}, {100, 100, 118, 98},  {280, 98, 300, 102}};
-    ArrowKey key;
-    for (const auto& a : px) {
-      key.arrows.push_back(arrow_from_screen("bench", *surface, camera, camera_from_world, {a[0], a[1]}, {a[2], a[3]}));
-    }
-    arrows.push_back(key);
-  }
-  Outlook outlook() const { return {camera, camera_from_world}; }
-};
-
-// What is mirrored: trees and clouds all around, made of noise.
-Picture surroundings() {
-  Picture p;
-  p.width_px = 512, p.height_px = 256;
-  for (int y = 0; y < 256; ++y) {
-    for (int x = 0; x < 512; ++x) {
-      const double tree = scattered(static_cast<std::uint64_t>(x / 8), 1);
-      const double shade = 0.3 + 0.7 * scattered(static_cast<std::uint64_t>(x / 4 + 1000 * (y / 4)), 2);
-      const double cloud = scattered(static_cast<std::uint64_t>(x / 24 + 1000 * (y / 10)), 3);
-      const bool sky = y < 20 + 95 * tree;
-      p.samples.push_back(static_cast<std::uint8_t>(sky ? 120 + 130 * cloud : 90 * shade));
-      p.samples.push_back(static_cast<std::uint8_t>(sky ? 170 + 80 * cloud : 150 * shade));
-      p.samples.push_back(static_cast<std::uint8_t>(sky ? 230 + 20 * cloud : 70 * shade));
-    }
-  }
-  return p;
-}
-
-ReferencePicture reference_of(const River& river) {
-  ReferencePicture reference;
-  MirrorOptions mirror;
-  mirror.sky.panorama = surroundings();
-  reference.paint(*river.surface, river.camera, river.camera_from_world, mirror, nullptr, nullptr, 1, 2);
-  return reference;
 }
 
 // Paints and draws a river frame by frame.
@@ -361,12 +306,18 @@ int run(int argc, char** argv) {
     return asked.empty() || std::find(asked.begin(), asked.end(), what) != asked.end();
   };
   const auto context = gl::Context::headless();
-  const River river;
+  const River river = river_scene();
   const ReferencePicture reference = reference_of(river);
   if (wanted("times")) times(river, reference);
   if (wanted("flow")) flow(river);
   if (wanted("coverage")) coverage(river, reference);
-  if (wanted("flicker")) flicker(river, reference);
+  if (wanted("flicker")) {
+    std::printf("A river:\n");
+    flicker(river, reference);
+    const River pond = pond_scene();
+    std::printf("A pond in which water turns:\n");
+    flicker(pond, reference_of(pond));
+  }
   return 0;
 }
 

@@ -146,9 +146,9 @@ Verdict background(const Facts& f) {
 
 Verdict merge(const Facts& f) {
   if (f.scene.foregrounds.empty()) return {false, "the scene has no [[foreground]]"};
-  if (!f.draws() && !f.replaces_plate()) return {false, no_object};
-  return {true, f.draws() ? "CG goes before and behind what was filmed, by depth"
-                          : "what was filmed goes before the background"};
+  if (!f.anything() && !f.replaces_plate()) return {false, no_object};
+  return {true, f.anything() ? "CG goes before and behind what was filmed, by depth"
+                             : "what was filmed goes before the background"};
 }
 
 Verdict fluffy(const Facts& f) {

@@ -9,7 +9,7 @@ namespace rinkaku::water {
 
 FlowGrid::FlowGrid(const Surface& surface, int cells) {
   const glm::dvec2 size = surface.most() - surface.least();
-  cell_m = std::max(size.x, size.y) / cells;
+  cell_m = std::max(size.x, size.y) / cells, cells_per_m = 1 / cell_m;
   const auto count = [this](double length) { return static_cast<int>(std::ceil(length / cell_m - 1e-9)) + 4; };
   columns = count(size.x), rows = count(size.y);
   origin = (surface.least() + surface.most()) / 2.0 - glm::dvec2(columns, rows) * (cell_m / 2);

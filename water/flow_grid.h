@@ -13,7 +13,7 @@ namespace rinkaku::water {
 /// Square cells over a surface with some room around it; what lies outside counts as its rim.
 struct FlowGrid {
   glm::dvec2 origin{0};  ///< of cell (0, 0), the surface's metres
-  double cell_m = 1;
+  double cell_m = 1, cells_per_m = 1;
   int columns = 1, rows = 1;  ///< cells
 
   /// At most `cells` along the longer side, and two more on each side around it.
@@ -29,8 +29,8 @@ struct FlowGrid {
     double fx = 0, fy = 0;
   };
   Cell cell_of(glm::dvec2 p) const {
-    const double gx = std::clamp((p.x - origin.x) / cell_m, 0.0, columns * (1 - 1e-12));
-    const double gy = std::clamp((p.y - origin.y) / cell_m, 0.0, rows * (1 - 1e-12));
+    const double gx = std::clamp((p.x - origin.x) * cells_per_m, 0.0, columns * (1 - 1e-12));
+    const double gy = std::clamp((p.y - origin.y) * cells_per_m, 0.0, rows * (1 - 1e-12));
     const int x = static_cast<int>(gx), y = static_cast<int>(gy);
     return {x, y, gx - x, gy - y};
   }

@@ -14,6 +14,7 @@
 #include "outline/curvature.h"
 #include "outline/fluffy/body_colours.h"
 #include "outline/fluffy/selection.h"
+#include "outline/fluffy/skin.h"
 #include "outline/fluffy/texture_coordinates.h"
 #include "outline/line_width.h"
 #include "pipeline/frame/error.h"
@@ -21,55 +22,13 @@
 namespace rinkaku::fluffy {
 namespace {
 
-// Per point of the whole mesh, in the frame's axes: the mean of its faces' normals weighted by their angle there. All
-// faces count, also those that are not chosen, so that normals run on over the border of what is fluffy.
-std::vector<glm::dvec3> point_normals(const std::vector<glm::dvec3>& points, const mesh::Topology& topology,
-                                      bool mirrored) {
-  std::vector<glm::dvec3> sums(points.size(), glm::dvec3(0));
+// All faces count, also those that are not chosen, so that normals run on over the border of what is fluffy.
+std::vector<SkinFace> skin_faces(const mesh::Topology& topology, bool mirrored) {
+  std::vector<SkinFace> faces;
   for (std::size_t f = 0; f < topology.faces.size(); ++f) {
-    const glm::uvec3& face = topology.faces[f];
-    const glm::dvec3 a = points[face.x], b = points[face.y], c = points[face.z];
-    const glm::dvec3 cross = glm::cross(b - a, c - a);
-    const double twice_area = glm::length(cross);
-    if (!(twice_area > 0)) continue;
-    const bool inwards = mirrored != (topology.turned[f] != 0);
-    const glm::dvec3 normal = cross * ((inwards ? -1.0 : 1.0) / twice_area);
-    for (int k = 0; k < 3; ++k) {
-      const glm::dvec3 at = points[face[k]];
-      const glm::dvec3 one = glm::normalize(points[face[(k + 1) % 3]] - at);
-      const glm::dvec3 other = glm::normalize(points[face[(k + 2) % 3]] - at);
-      sums[face[k]] += normal * std::acos(std::clamp(glm::dot(one, other), -1.0, 1.0));
-    }
+    faces.push_back({topology.faces[f], mirrored != (topology.turned[f] != 0)});
   }
-  for (glm::dvec3& n : sums) n = glm::length(n) > 0 ? glm::normalize(n) : glm::dvec3(0, 0, 1);
-  return sums;
-}
-
-struct Centre {
-  glm::dvec3 place{0};
-  double mean_radius_m = 0;
-};
-
-// Of the chosen triangles' area.
-Centre centre_of(const std::vector<glm::dvec3>& points, const mesh::Topology& topology,
-                 const std::vector<std::uint32_t>& chosen) {
-  double area = 0;
-  const auto sum_over = [&](auto value) {
-    decltype(value(glm::dvec3())) sum(0);
-    area = 0;
-    for (std::uint32_t f : chosen) {
-      const glm::uvec3& face = topology.faces[f];
-      const glm::dvec3 a = points[face.x], b = points[face.y], c = points[face.z];
-      const double twice_area = glm::length(glm::cross(b - a, c - a));
-      sum += value((a + b + c) / 3.0) * twice_area;
-      area += twice_area;
-    }
-    return area > 0 ? sum / area : value(points[topology.faces[chosen.front()].x]);
-  };
-  Centre centre;
-  centre.place = sum_over([](const glm::dvec3& p) { return p; });
-  centre.mean_radius_m = sum_over([&](const glm::dvec3& p) { return glm::length(p - centre.place); });
-  return centre;
+  return faces;
 }
 
 std::vector<float> curvature_factors(const mesh::Topology& topology, double exaggeration) {
@@ -179,9 +138,12 @@ Frame make_frame(const mesh::Mesh& mesh, const mesh::Topology& topology, const g
   std::vector<glm::dvec3> points;
   for (const glm::vec3& p : topology.points) points.push_back(world_from_object * glm::dvec3(p));
   const bool mirrored = glm::determinant(world_from_object) < 0;
-  const std::vector<glm::dvec3> normals = point_normals(points, topology, mirrored);
+  std::vector<glm::dvec3> normals(points.size(), glm::dvec3(0, 0, 1));
+  find_normals(points, skin_faces(topology, mirrored), normals);
   const std::vector<float> factors = curvature_factors(topology, options.exaggeration);
-  const Centre centre = centre_of(points, topology, chosen.triangles);
+  std::vector<glm::uvec3> faces;
+  for (const std::uint32_t f : chosen.triangles) faces.push_back(topology.faces[f]);
+  const SkinCentre centre = find_centre(points, faces);
   std::vector<float> weights(topology.points.size(), 0.0f);
   for (std::size_t v = 0; v < mesh.welded.size(); ++v) {
     weights[mesh.welded[v]] = std::max(weights[mesh.welded[v]], chosen.weights[v]);
@@ -192,14 +154,18 @@ Frame make_frame(const mesh::Mesh& mesh, const mesh::Topology& topology, const g
       chosen_triangles(mesh, chosen.triangles, options.coordinates == Coordinates::Generated);
   if (options.coarseness > 0) make_coarser(triangles, mesh, points, options.coarseness * length_m);
   Frame frame;
-  for (const std::uint32_t p : add_points(frame, mesh, triangles)) {
-    const double share = static_cast<double>(weights[p] * factors[p]);
-    const glm::dvec3 growth =
-        options.growth == Growth::Scaled ? (options.scale - 1) * (points[p] - centre.place) : length_m * normals[p];
+  frame.kind = options.growth;
+  frame.chosen = chosen.triangles;
+  frame.mesh_points = add_points(frame, mesh, triangles);
+  const bool scaled = options.growth == Growth::Scaled;
+  for (const std::uint32_t p : frame.mesh_points) {
+    const double reach = static_cast<double>(weights[p] * factors[p]) * (scaled ? options.scale - 1 : length_m);
+    const glm::dvec3 growth = reach * (scaled ? points[p] - centre.place : normals[p]);
     frame.points.emplace_back(points[p]);
     frame.normals.emplace_back(normals[p]);
-    frame.growth.emplace_back(growth * share);
-    frame.longest_m = std::max(frame.longest_m, static_cast<float>(glm::length(growth) * share));
+    frame.growth.emplace_back(growth);
+    frame.reach.push_back(reach);
+    frame.longest_m = std::max(frame.longest_m, static_cast<float>(glm::length(growth)));
   }
   add_vertices(frame, mesh, triangles, options, options.tile_m.value_or(options.tile_lengths * length_m));
   return frame;

@@ -32,6 +32,12 @@ struct Frame {
   std::vector<FrameVertex> vertices;  ///< points, once for each chart they are in
   std::vector<glm::uvec3> triangles;  ///< the same triangles, as vertices
   float longest_m = 0;                ///< of all growth
+
+  // What following a mesh that moves needs.
+  std::vector<std::uint32_t> mesh_points;  ///< per point: which of the mesh's it is
+  std::vector<std::uint32_t> chosen;       ///< the mesh's triangles whose middle is the centre of growth
+  Growth kind = Growth::AlongNormals;
+  std::vector<double> reach;  ///< per point: growth, in metres along the normal or in distances from the centre
 };
 
 /// Makes the frame of the part of a mesh that `options` choose.

@@ -87,7 +87,7 @@ PreparedObject prepare(mesh::Imported imported, const ObjectScene& object, const
   if (object.outline) line = line_style(mesh, *object.outline, object.animation.has_value(), factors);
   std::optional<Fluff> fluff;
   if (object.fluffy) fluff = prepare_fluff(object, mesh, place);
-  if (object.fluffy && object.outline) thin_line_under_fluff(factors, object, mesh);
+  if (object.fluffy && object.outline) thin_line_under_fluff(line, factors, object, mesh);
   line.factors = factors;
   return {std::move(imported), toon, std::move(shape), std::move(factors), std::move(line), std::move(fluff)};
 }

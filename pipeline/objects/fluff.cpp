@@ -1,5 +1,6 @@
 #include "pipeline/objects/fluff.h"
 
+#include <cstdint>
 #include <memory>
 #include <numbers>
 #include <utility>
@@ -57,23 +58,39 @@ Fluff prepare_fluff(const ObjectScene& object, const mesh::Mesh& mesh, const glm
   }
   options.coarseness = 0.2;
   Fluff fluff;
-  fluff.frame =
-      fluffy::make_frame(mesh, mesh::topology(mesh), glm::dmat3(world_from_object), options, scene.where.c_str());
+  const mesh::Topology topology = mesh::topology(mesh);
+  const glm::dmat3 linear(world_from_object);
+  fluff.frame = fluffy::make_frame(mesh, topology, linear, options, scene.where.c_str());
+  if (object.animation) fluff.moving.emplace(fluff.frame, topology, linear);
   fluff.image = transmission_of(scene);
   return fluff;
 }
 
-void thin_line_under_fluff(std::vector<float>& factors, const ObjectScene& object, const mesh::Mesh& mesh) {
+void thin_line_under_fluff(passes::LineStyle& style, std::vector<float>& factors, const ObjectScene& object,
+                           const mesh::Mesh& mesh) {
   constexpr float unseen = 0.002f;  // of a line's width: fainter than 8 bits tell
-  if (object.fluffy->line == FluffyScene::Line::Body) return;
-  if (factors.empty()) factors.assign(mesh.point_count, 1.0f);
   const FluffyScene& scene = *object.fluffy;
+  if (scene.line == FluffyScene::Line::Body) return;
   const fluffy::Chosen chosen = fluffy::choose(mesh, scene.frame.selection, scene.where.c_str());
+  std::vector<std::uint8_t> fluffy(mesh.point_count);
   for (const std::uint32_t f : chosen.triangles) {
     for (int k = 0; k < 3; ++k) {
       const std::uint32_t vertex = mesh.triangles[f][k];
-      if (chosen.weights[vertex] > 0) factors[mesh.welded[vertex]] = unseen;
+      if (chosen.weights[vertex] > 0) fluffy[mesh.welded[vertex]] = 1;
     }
+  }
+  if (style.follow) {
+    style.follow = [found = std::move(style.follow), fluffy](const passes::LineStyle::Moved& now) {
+      found(now);
+      for (const std::uint32_t point : now.wanted) {
+        if (fluffy[point] != 0) now.factors[point] = unseen;
+      }
+    };
+    return;
+  }
+  if (factors.empty()) factors.assign(mesh.point_count, 1.0f);
+  for (std::size_t p = 0; p < factors.size(); ++p) {
+    if (fluffy[p] != 0) factors[p] = unseen;
   }
 }
 
@@ -108,6 +125,7 @@ void add_fluff(passes::StyledObject& styled, const Fluff& fluff, const ObjectSce
   if (object.toon) options.shade_colour = colour(object.toon->shade_colour);
   options.light = glm::vec3(light.direction);
   auto pass = std::make_unique<fluffy::FluffyPass>(*styled.object, fluff.frame, fluff.image, options);
+  if (fluff.moving) pass->follow(*fluff.moving);
   // Edges are drawn from the list's end on.
   const bool under_line = object.outline && scene.line == FluffyScene::Line::Body;
   styled.passes.insert(under_line ? styled.passes.end() : styled.passes.begin(), std::move(pass));

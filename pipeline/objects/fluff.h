@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include <glm/mat4x4.hpp>
@@ -7,8 +8,10 @@
 #include "mesh/bounds.h"
 #include "mesh/mesh.h"
 #include "outline/fluffy/frame.h"
+#include "outline/fluffy/moving_frame.h"
 #include "outline/fluffy/transmission.h"
 #include "pipeline/passes/layer_renderer.h"
+#include "pipeline/passes/line_strips.h"
 #include "pipeline/scene/light.h"
 #include "pipeline/scene/object.h"
 
@@ -17,15 +20,18 @@ namespace rinkaku::pipeline {
 /// What of an object's fluff needs no GL.
 struct Fluff {
   fluffy::Frame frame;
+  std::optional<fluffy::MovingFrame> moving;  ///< the same, if the object is animated
   fluffy::TransmissionImage image;
 };
 
 /// Precondition: the object has fluff. Throws Error (Input).
 Fluff prepare_fluff(const ObjectScene& object, const mesh::Mesh& mesh, const glm::dmat4& world_from_object);
 
-/// Lets the outline fade where fluff grows, unless the line is to run there: factors of the line's width at each welded
-/// point. Precondition: the object has fluff and an outline. `factors` may be empty, which stands for 1 everywhere.
-void thin_line_under_fluff(std::vector<float>& factors, const ObjectScene& object, const mesh::Mesh& mesh);
+/// Lets the outline fade where fluff grows, unless the line is to run there. `factors` are what `style` refers to where
+/// the line's width doesn't follow movement; empty stands for 1 everywhere.
+/// Precondition: the object has fluff and an outline.
+void thin_line_under_fluff(passes::LineStyle& style, std::vector<float>& factors, const ObjectScene& object,
+                           const mesh::Mesh& mesh);
 
 /// Adds the pass that draws it, after all of the object's other passes have been added: where the line is to be over
 /// the fluff, the fluff is drawn before them, else after them. Needs a GL context.

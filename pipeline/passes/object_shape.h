@@ -98,6 +98,8 @@ class ObjectShape {
   bool moves() const { return moving_.has_value(); }
   /// How often it has moved so far: what was made of its vertices is of that count.
   std::uint64_t moves_made() const { return moves_made_; }
+  /// Where its welded points are now, in the object's coordinates. Precondition: it moves.
+  std::span<const glm::vec3> moved_points() const { return moving_->skin().points(); }
   /// Of the borders between materials; empty if there are none.
   std::span<const BorderVertex> border_vertices() const { return borders_->vertices(); }
   bool intersects_itself() const { return !intersections_->empty(); }

@@ -33,11 +33,14 @@ glm::dvec3 read_scale(const Table& object) {
 /// What is made of a mesh at rest can't go with it when it moves.
 void refuse_for_animated(const Table& object, const ObjectScene& scene) {
   if (!scene.animation) return;
-  for (const std::string_view key : {"regions", "fluffy"}) {
-    if (object.has(key)) {
-      throw object.error_at(key, "needs a mesh that stands still, but the object has 'animation'",
-                            "leave one of them out");
-    }
+  if (object.has("regions")) {
+    throw object.error_at("regions", "needs a mesh that stands still, but the object has 'animation'",
+                          "leave one of them out");
+  }
+  using Cut = FluffyScene::Cut;
+  if (scene.fluffy && (scene.fluffy->cut == Cut::Regions || scene.fluffy->cut == Cut::Nearest)) {
+    throw object.error_at("fluffy", "is cut by lists made of a mesh that stands still, but the object has 'animation'",
+                          "give cut = \"exact\" or \"gpu\"");
   }
   if (!scene.outline) return;
   const LineMethod method = scene.outline->method;

@@ -102,16 +102,29 @@ glm::vec3 BrookLand::normal(glm::vec2 p) const {
 
 BrookLand::Hit BrookLand::first_hit(glm::vec3 eye, glm::vec3 direction, float most) const {
   Hit hit;
-  float t = 0.02f;
-  while (t < most) {
+  const auto clearance = [&](float t) {
     const glm::vec3 p = eye + direction * t;
-    const float above = p.z - height(glm::vec2(p));
+    return p.z - height(glm::vec2(p));
+  };
+  float t = 0.02f, before = 0;
+  while (t < most) {
+    const float above = clearance(t);
     if (above < 0.0005f * t) {
       hit.distance = t;
       break;
     }
-    if (p.z > 12 && direction.z > 0) break;
+    if (eye.z + direction.z * t > 12 && direction.z > 0) break;
+    before = t;
     t += std::max(0.3f * above, 0.003f + 0.0006f * t);
+  }
+  // A step may end deep within a cliff: back to its face.
+  if (t < most && clearance(t) < 0) {
+    float inside = t;
+    for (int i = 0; i < 16; ++i) {
+      const float middle = (before + inside) / 2;
+      (clearance(middle) < 0 ? inside : before) = middle;
+    }
+    hit.distance = before;
   }
   // Trees: cones with a ragged skin.
   for (const Tree& tree : trees_) {

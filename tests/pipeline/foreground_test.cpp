@@ -138,6 +138,81 @@ TEST(FilmedThings, OrderFlipsOnceWhenSomebodyWalksFromBehindToBefore) {
 }
 
 // Where the matte is 0 the world is seen, where it is 255 the plate's own samples, untouched.
+// Nothing of the water may show where a thing before it is opaque, and the rest of the water stays as it is.
+TEST(FilmedThings, WaterBehindThemLeavesThemUntouched) {
+  const ShotFolder folder;
+  const auto plate = folder.noise_clip("in.mkv", small, 4);
+  write_mattes(folder, bars(4, 255));
+  const std::string water =
+      "[water]\nstrokes = 800\n[[water.surface]]\noutline_m = [[-3, -1, 0], [3, -1, 0], [3, 3, 0], [-3, 3, 0]]\n"
+      "[[water.surface.arrow]]\nfrom_m = [0, 0, 0]\nto_m = [0.5, 0, 0]\n"
+      "[[water.spray]]\nfrom_m = [-1, 0, 0]\nto_m = [1, 0, 0]\nheight_m = 0.2\n";
+  const auto rendered = [&](const std::string& foreground) {
+    folder.render(test::plate + camera + foreground + water, {.output = "out.mkv", .codec = "ffv1", .overwrite = true});
+    return folder.frames("out.mkv");
+  };
+  const auto without = rendered(""), before = rendered(filmed("distance_m = 0.2"));
+  int in_it = 0;
+  for (std::size_t i = 0; i < plate.size(); ++i) {
+    for (int y = 0; y < 48; ++y) {
+      for (int x = 0; x < 64; ++x) {
+        const Frame& wish = in_bar(x) ? plate[i] : without[i];
+        ASSERT_EQ(test::sample(before[i], 0, x, y), test::sample(wish, 0, x, y)) << x << "," << y;
+        ASSERT_EQ(test::sample(before[i], 1, x / 2, y / 2), test::sample(wish, 1, x / 2, y / 2)) << x << "," << y;
+        in_it += in_bar(x) && test::sample(without[i], 0, x, y) != test::sample(plate[i], 0, x, y) ? 1 : 0;
+      }
+    }
+  }
+  EXPECT_GT(in_it, 4 * 16 * 10);  // there is water behind the bar, in half its height
+}
+
+// Fluff behind a soft edge is mixed by the matte: no line along the edge that is neither the plate nor the fluff.
+TEST(FilmedThings, CutFluffSoftly) {
+  const ShotFolder folder;
+  // Grey all over, so that what is filmed in the soft edge has the background's colour and nothing need be guessed.
+  std::vector<Frame> plate = test::noise_frames(small, 2);
+  for (Frame& frame : plate) {
+    for (int p = 0; p < 3; ++p) {
+      for (int y = 0; y < (p == 0 ? 48 : 24); ++y) {
+        std::fill_n(frame.planes[p].data + y * frame.planes[p].stride_bytes, p == 0 ? 64 : 32,
+                    static_cast<std::uint8_t>(p == 0 ? 140 : 128));
+      }
+    }
+  }
+  test::write_all({.path = folder.file("in.mkv"), .codec = "ffv1"}, test::incoming(small), plate);
+  std::vector<Frame> mattes = bars(2, 255);
+  const auto alpha_of = [](int x) { return std::clamp((40 - x) * 16, 0, 255); };  // to nothing over 16 pixels
+  for (Frame& frame : mattes) {
+    for (int y = 0; y < 48; ++y) {
+      std::uint8_t* row = frame.planes[0].data + y * frame.planes[0].stride_bytes;
+      for (int x = 0; x < 64; ++x) row[x] = static_cast<std::uint8_t>(alpha_of(x));
+    }
+  }
+  write_mattes(folder, mattes);
+  const auto rendered = [&](const std::string& foreground, const std::string& look) {
+    folder.render(test::plate + camera + foreground + test::cube + look,
+                  {.output = "out.mkv", .codec = "ffv1", .overwrite = true});
+    return folder.frames("out.mkv");
+  };
+  const std::string fluff = "outline = true\nfluffy = { scale = 1.5 }\n";
+  const auto bare = rendered("", ""), without = rendered("", fluff), cut = rendered(filmed("distance_m = 1"), fluff),
+             far = rendered(filmed("distance_m = 3"), fluff);
+  int soft = 0;
+  for (std::size_t i = 0; i < plate.size(); ++i) {
+    EXPECT_EQ(test::samples(far[i]), test::samples(without[i]));  // fluff before them is not cut at all
+    for (int y = 0; y < 48; ++y) {
+      for (int x = 0; x < 64; ++x) {
+        const double alpha = alpha_of(x) / 255.0;
+        const int in = test::sample(plate[i], 0, x, y), covered = test::sample(without[i], 0, x, y);
+        // The layer, cut, and the sum are each rounded to 8 bits: a step for both and one for their way to luma.
+        ASSERT_NEAR(test::sample(cut[i], 0, x, y), alpha * in + (1 - alpha) * covered, 2) << x << "," << y;
+        soft += alpha > 0 && alpha < 1 && covered != test::sample(bare[i], 0, x, y) ? 1 : 0;
+      }
+    }
+  }
+  EXPECT_GT(soft, 100);  // there is fluff in the soft edge
+}
+
 TEST(FilmedThings, StandInAWorldInThePlatesPlace) {
   const ShotFolder folder;
   const auto plate = folder.noise_clip("in.mkv", small, 2);

@@ -281,6 +281,10 @@ INSTANTIATE_TEST_SUITE_P(
         BadScene{"AnimatedRegions", object + "animation = true\nregions = true\n",
                  "DIR/scene.toml:9:11: 'regions' in [[object]] needs a mesh that stands still, but the object has "
                  "'animation'; leave one of them out"},
+        BadScene{
+            "AnimatedFluffLists", object + "animation = true\nfluffy = { cut = \"regions\" }\n",
+            "DIR/scene.toml:9:10: 'fluffy' in [[object]] is cut by lists made of a mesh that stands still, but the "
+            "object has 'animation'; give cut = \"exact\" or \"gpu\""},
         BadScene{"AnimatedStrokes", object + "animation = true\noutline = { method = \"strokes\" }\n",
                  "DIR/scene.toml:9:11: 'outline' in [[object]] has lines that need a mesh that stands still, but the "
                  "object has 'animation'; take the method \"uniform\" or \"curvature\", without inner lines"},

@@ -223,6 +223,7 @@ TEST(Scene, PlaysAnimations) {
   EXPECT_EQ(named.speed, -0.5);
   EXPECT_EQ(folder.read(object + "animation = { clip = 2 }\n").objects[0].animation->clip_index, 2);
   EXPECT_TRUE(folder.read(object + "holdout = true\nanimation = true\n").objects[0].animation);
+  EXPECT_TRUE(folder.read(object + "animation = true\nfluffy = { cut = \"gpu\" }\n").objects[0].fluffy);
 }
 
 TEST(Scene, TakesOneScaleForAllAxes) {

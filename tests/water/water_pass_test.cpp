@@ -86,6 +86,25 @@ TEST_F(WaterPassTest, StrokesOverEverythingAreTestedAgainstTheObjects) {
   EXPECT_NE(at(layer, static_cast<int>(ball.x), 50), (Rgba{10, 20, 30, 255}));
 }
 
+// Of the user's two brushes one is full of paint, the other has none: their shares are the paint.
+TEST_F(WaterPassTest, OwnBrushesAreBlendedByTheirShares) {
+  water::BrushSheet own = plain();
+  own.layers = 2;
+  for (int i = 0; i < 16; ++i) own.texels.insert(own.texels.end(), {0, 128});
+  Stroke stroke = everywhere({200, 100, 50, 255});
+  stroke.blend = {153, 102, 0, 0};
+  passes::LayerRenderer renderer({}, picture_of(v));
+  auto pass = std::make_unique<WaterPass>(plain(), plain(), own);
+  const water::PaintedSurface painted{&wall, {&stroke, 1}};
+  pass->show({&painted, 1}, {}, {});
+  renderer.add(std::move(pass));
+  passes::Layer layer;
+  renderer.draw(v, layer);
+  const Rgba seen = at(layer, 50, 50);
+  EXPECT_NEAR(seen[3], 153, 1);
+  EXPECT_NEAR(seen[0], 200 * 0.6, 1);  // premultiplied
+}
+
 TEST_F(WaterPassTest, DrawsNothingWithoutStrokes) { EXPECT_TRUE(drawn_with({}, {}).rect.empty()); }
 
 TEST_F(WaterPassTest, AMirrorsEyeSeesOnlyWhatLiesBeforeTheMirror) {

@@ -4,7 +4,7 @@ uniform sampler2DArray brushes;  // how much paint, how light
 flat in vec4 shares;  // of the first layers
 #endif
 flat in vec4 paint;
-in vec3 on_brush;
+noperspective in vec3 on_brush;
 
 layout(location = 0) out vec4 fragment;
 

@@ -14,7 +14,7 @@ flat out vec4 shares;
 #endif
 
 flat out vec4 paint;
-out vec3 on_brush;
+noperspective out vec3 on_brush;
 
 void main() {
   vec2 corner = vec2((gl_VertexID & 1) * 2 - 1, (gl_VertexID & 2) - 1);

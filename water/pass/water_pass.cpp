@@ -75,7 +75,8 @@ gl::TextureHandle WaterPass::upload(const BrushSheet& sheet) {
   GLuint name = 0;
   glCreateTextures(GL_TEXTURE_2D_ARRAY, 1, &name);
   gl::TextureHandle texture(name);
-  glTextureStorage3D(name, 1, GL_RG8, sheet.width_px, sheet.height_px, sheet.layers);
+  // Four channels though two are used: GL in software reads them faster.
+  glTextureStorage3D(name, 1, GL_RGBA8, sheet.width_px, sheet.height_px, sheet.layers);
   if (glGetError() != GL_NO_ERROR) throw runtime_failure("OpenGL", "there is no memory for the water's brushes");
   glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
   glTextureSubImage3D(name, 0, 0, 0, 0, sheet.width_px, sheet.height_px, sheet.layers, GL_RG, GL_UNSIGNED_BYTE,

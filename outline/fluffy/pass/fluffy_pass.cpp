@@ -5,6 +5,7 @@
 #include <cstring>
 #include <span>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include <glm/geometric.hpp>
@@ -17,26 +18,6 @@
 namespace rinkaku::fluffy {
 namespace {
 
-// FluffVertex of fluffy.vert.
-struct GpuVertex {
-  glm::vec3 position;
-  float u;
-  glm::vec3 growth;
-  float v;
-  glm::vec3 normal;
-  std::array<std::uint8_t, 4> colour;
-};
-static_assert(sizeof(GpuVertex) == 48);
-
-gl::StaticBuffer upload(const Frame& frame) {
-  std::vector<GpuVertex> vertices;
-  for (const FrameVertex& v : frame.vertices) {
-    vertices.push_back(
-        {frame.points[v.point], v.uv.x, frame.growth[v.point], v.uv.y, frame.normals[v.point], v.colour});
-  }
-  return gl::StaticBuffer(std::as_bytes(std::span(vertices)));
-}
-
 gl::VertexArrayHandle make_array() {
   GLuint name = 0;
   glCreateVertexArrays(1, &name);
@@ -46,6 +27,16 @@ gl::VertexArrayHandle make_array() {
 using Defines = std::vector<std::string_view>;
 
 }  // namespace
+
+std::vector<FluffyPass::GpuVertex> FluffyPass::vertices_of(const Frame& frame) {
+  static_assert(sizeof(GpuVertex) == 48);
+  std::vector<GpuVertex> vertices;
+  for (const FrameVertex& v : frame.vertices) {
+    vertices.push_back(
+        {frame.points[v.point], v.uv.x, frame.growth[v.point], v.uv.y, frame.normals[v.point], v.colour});
+  }
+  return vertices;
+}
 
 FluffyPass::Painter::Painter(std::span<const std::string_view> defines) {
   const std::string_view vertex[] = {embedded::fluffy_vert};
@@ -64,8 +55,8 @@ FluffyPass::FluffyPass(passes::DrawnObject& object, const Frame& frame, const Tr
     : object_(object),
       options_(options),
       layers_(static_cast<std::uint32_t>(image.layers)),
-      longest_m_(frame.longest_m * (1.0 + glm::length(options.hang))),
-      vertices_(upload(frame)),
+      longest_at_rest_m_(frame.longest_m * (1.0 + glm::length(options.hang))),
+      vertices_(std::as_bytes(std::span<const GpuVertex>(vertices_of(frame)))),
       array_(make_array()),
       image_(image.width_px, image.height_px, image.layers, image.rgba),
       fluff_(options.bands > 0 ? Defines{"LIT"} : Defines{}) {
@@ -82,6 +73,38 @@ FluffyPass::FluffyPass(passes::DrawnObject& object, const Frame& frame, const Tr
   const GLuint name = rim_->program.name();
   const glm::vec4 colour(options.rim->colour, 1);
   glProgramUniform4fv(name, rim_->program.uniform("rim_colour"), 1, glm::value_ptr(colour));
+}
+
+void FluffyPass::follow(MovingFrame frame) {
+  movement_.emplace(Movement{std::move(frame), 0, 0, {}, {}});
+  movement_->values = vertices_of(movement_->frame.frame());
+  vertices_ = {};
+}
+
+double FluffyPass::longest_m() const {
+  if (!movement_) return longest_at_rest_m_;
+  Movement& m = *movement_;
+  const passes::ObjectShape& shape = object_.shape();
+  if (m.moves_seen != shape.moves_made()) m.frame.move(shape.moved_points());
+  m.moves_seen = shape.moves_made();
+  return m.frame.frame().longest_m * (1.0 + glm::length(options_.hang));
+}
+
+void FluffyPass::send_movement() {
+  if (!movement_) return;
+  Movement& m = *movement_;
+  if (m.moves_sent == m.moves_seen) return;
+  m.moves_sent = m.moves_seen;
+  const Frame& frame = m.frame.frame();
+  if (cutter_) cutter_->move(frame);
+  if (order_) order_->move(frame);
+  for (std::size_t v = 0; v < m.values.size(); ++v) {
+    const std::uint32_t point = frame.vertices[v].point;
+    m.values[v].position = frame.points[point];
+    m.values[v].growth = frame.growth[point];
+    m.values[v].normal = frame.normals[point];
+  }
+  m.vertices.write(std::as_bytes(std::span<const GpuVertex>(m.values)));
 }
 
 void FluffyPass::set_up(const Painter& painter) const {
@@ -112,14 +135,15 @@ float FluffyPass::rim_px(const passes::View& view) const {
 
 double FluffyPass::reach_px(const passes::View& view) const {
   const passes::Look& look = object_.shape().last_look();
-  const double nearest_m = look.nearest_m - longest_m_;
+  const double longest = longest_m();
+  const double nearest_m = look.nearest_m - longest;
   // Where fluff reaches behind the eye it may be anywhere in the picture.
   if (look.crosses_eye_plane || nearest_m < passes::near_m) return view.camera.width_px + view.camera.height_px;
   // A point of the mesh at the border of the picture moves aside by its growth, and by what coming nearer adds.
   const double off_axis =
       std::hypot(view.camera.width_px / view.camera.fx_px, view.camera.height_px / view.camera.fy_px);
   const double line_px = 2.0 * static_cast<double>(rim_px(view));
-  return view.camera.fx_px * longest_m_ / nearest_m * (1 + off_axis) + line_px;
+  return view.camera.fx_px * longest / nearest_m * (1 + off_axis) + line_px;
 }
 
 // As many layers as lie about a pixel and a half apart where the object is nearest. From one number to its double the
@@ -129,7 +153,7 @@ FluffyPass::Density FluffyPass::density(const passes::View& view) const {
   constexpr double fewest = 4;  // or there is nothing left of what the lower ones cover
   const passes::Look& look = object_.shape().last_look();
   const double nearest_m = std::max(look.nearest_m, passes::near_m);
-  const double wished = std::max(view.camera.fx_px * longest_m_ / (nearest_m * apart_px), fewest);
+  const double wished = std::max(view.camera.fx_px * longest_m() / (nearest_m * apart_px), fewest);
   std::uint32_t step = 1;
   while (step < layers_ && layers_ / (2.0 * step) >= wished) step *= 2;
   const double half = layers_ / (2.0 * step);  // how many there are without the fresh ones
@@ -138,7 +162,7 @@ FluffyPass::Density FluffyPass::density(const passes::View& view) const {
 
 GLsizei FluffyPass::find(const glm::dvec3& eye, std::uint32_t step) {
   if (gpu_cut_) {
-    gpu_cut_->run(vertices_.name(), eye, step);
+    gpu_cut_->run(vertices(), eye, step);
     return -1;
   }
   const std::span<const std::uint32_t> indices = order_->sorted(cutter_->find(eye), eye, step);
@@ -153,12 +177,13 @@ void FluffyPass::draw_edges(const passes::DrawCall& call) {
   const RigidTransform world_from_camera = inverse(call.view.camera_from_world);
   const glm::dvec3 eye = world_from_camera.translation_m - glm::dvec3(world_from_object[3]);
   const Density drawn = density(call.view);
+  send_movement();
   const GLsizei count = find(eye, drawn.step);
   if (count == 0) return;
   const glm::mat4 object_from_frame(glm::dmat4(glm::inverse(glm::dmat3(world_from_object))));
   const glm::mat4 clip_from_frame = call.clip_from_object * object_from_frame;
   glBindTextureUnit(0, image_.name());
-  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, vertices_.name());
+  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, vertices());
   glBindVertexArray(array_.name());
   for (const Painter* painter : {rim_ ? &*rim_ : nullptr, &fluff_}) {
     if (painter == nullptr) continue;

@@ -1,15 +1,18 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <span>
 #include <string_view>
+#include <vector>
 
 #include <glm/vec3.hpp>
 
 #include "outline/fluffy/cutter.h"
 #include "outline/fluffy/draw_order.h"
 #include "outline/fluffy/frame.h"
+#include "outline/fluffy/moving_frame.h"
 #include "outline/fluffy/pass/gpu_cut.h"
 #include "outline/fluffy/transmission.h"
 #include "pipeline/gl/buffer.h"
@@ -53,12 +56,38 @@ class FluffyPass : public passes::ObjectPass {
   FluffyPass(passes::DrawnObject& object, const Frame& frame, const TransmissionImage& image,
              const FluffyOptions& options);
 
+  /// From now on fluff goes with an object that moves, anew each time it has. Preconditions: `frame` is the pass's, the
+  /// object moves, and the cut is Exact, None, or on the GPU.
+  void follow(MovingFrame frame);
+
   const char* name() const override { return "fluffy"; }
   double reach_px(const passes::View& view) const override;
   void draw_surface(const passes::DrawCall&) override {}
   void draw_edges(const passes::DrawCall& call) override;
 
  private:
+  // FluffVertex of fluffy.vert.
+  struct GpuVertex {
+    glm::vec3 position;
+    float u;
+    glm::vec3 growth;
+    float v;
+    glm::vec3 normal;
+    std::array<std::uint8_t, 4> colour;
+  };
+  static std::vector<GpuVertex> vertices_of(const Frame& frame);
+  // What follows an object that moves.
+  struct Movement {
+    MovingFrame frame;
+    std::uint64_t moves_seen = 0;  // of the object's, by the frame,
+    std::uint64_t moves_sent = 0;  // and by all that is made of the frame
+    std::vector<GpuVertex> values;
+    gl::StreamBuffer vertices;
+  };
+  // Of the frame as it is now.
+  double longest_m() const;
+  void send_movement();
+  GLuint vertices() const { return movement_ ? movement_->vertices.name() : vertices_.name(); }
   struct Density {
     std::uint32_t step;  // every which layer is drawn
     float fresh;         // how far every other one of those has faded in
@@ -79,11 +108,12 @@ class FluffyPass : public passes::ObjectPass {
   passes::DrawnObject& object_;
   FluffyOptions options_;
   std::uint32_t layers_;
-  double longest_m_;
+  double longest_at_rest_m_;
   std::optional<GpuCut> gpu_cut_;  // or:
   std::optional<Cutter> cutter_;
   std::optional<DrawOrder> order_;
   gl::StaticBuffer vertices_;
+  mutable std::optional<Movement> movement_;  // its frame is brought up to date by whoever asks first
   gl::StreamBuffer indices_;
   gl::VertexArrayHandle array_;
   gl::TextureArray image_;
