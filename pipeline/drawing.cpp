@@ -14,6 +14,7 @@
 #include "outline/line_width.h"
 #include "outline/pass/hull_pass.h"
 #include "pipeline/animated.h"
+#include "pipeline/control_line.h"
 #include "pipeline/gl/context.h"
 #include "pipeline/in_parallel.h"
 #include "pipeline/passes/holdout/holdout_pass.h"
@@ -37,10 +38,6 @@ passes::ToonOptions toon_options(const ObjectScene& object, const LightScene& li
   return options;
 }
 
-bool follows_curvature(const ObjectScene& object) {
-  return object.outline && object.outline->method == OutlineScene::Method::Curvature;
-}
-
 outline::WidthOptions width_options(const OutlineScene& line) {
   outline::WidthOptions options;
   options.kind = line.curvature;
@@ -53,22 +50,35 @@ outline::WidthOptions width_options(const OutlineScene& line) {
   return options;
 }
 
-// What its widths do along the line; the factors' memory is `factors`.
-passes::LineStyle line_style(const ObjectScene& object, const mesh::Mesh& mesh, std::vector<float>& factors) {
+// Widths that follow the shape: found once, in `factors`, or in every frame of an object that is animated.
+template <typename Widths>
+void follow_shape(std::shared_ptr<Widths> widths, const mesh::Topology& topology, const ObjectScene& object,
+                  std::vector<float>& factors, passes::LineStyle& style) {
+  if (object.animation) {
+    style.most_factor = 1 + static_cast<float>(object.outline->exaggeration);
+    style.follow = [widths](const passes::LineStyle::Moved& now) { widths->at(now.points, now.wanted, now.factors); };
+    return;
+  }
+  const std::span<const float> found = widths->at(topology.points);
+  factors.assign(found.begin(), found.end());
+  style.factors = factors;
+}
+
+// What its width does along the line; the factors' memory is `factors`.
+passes::LineStyle line_style(const ObjectScene& object, const mesh::Mesh& mesh, const glm::dmat4& world_from_object,
+                             std::vector<float>& factors) {
   passes::LineStyle style;
   if (!object.outline) return style;
-  style.taper_px = static_cast<float>(object.outline->taper_px);
-  if (!follows_curvature(object)) return style;
-  const outline::WidthOptions options = width_options(*object.outline);
-  const auto widths = std::make_shared<outline::CurvatureWidths>(mesh::topology(mesh), options);
-  if (object.animation) {
-    style.follow = [widths](const passes::LineStyle::Moved& now) { widths->at(now.points, now.wanted, now.factors); };
-    style.most_factor = 1 + options.exaggeration;
+  const OutlineScene& line = *object.outline;
+  style.taper_px = static_cast<float>(line.taper_px);
+  if (line.method == OutlineScene::Method::Uniform) return style;
+  const mesh::Topology topology = mesh::topology(mesh);
+  if (line.method == OutlineScene::Method::Curvature) {
+    follow_shape(std::make_shared<outline::CurvatureWidths>(topology, width_options(line)), topology, object, factors,
+                 style);
   } else {
-    const mesh::Topology topology = mesh::topology(mesh);
-    const std::span<const float> found = widths->at(topology.points);
-    factors.assign(found.begin(), found.end());
-    style.factors = factors;
+    follow_shape(std::make_shared<outline::ControlWidths>(control_widths(line, topology, world_from_object)), topology,
+                 object, factors, style);
   }
   return style;
 }
@@ -123,7 +133,7 @@ PreparedObject prepare(mesh::Imported imported, const ObjectScene& object, const
     shape.animate(mesh, imported.rig, playback(*object.animation, imported.rig, object.mesh));
   }
   std::vector<float> factors;
-  passes::LineStyle line = line_style(object, mesh, factors);
+  passes::LineStyle line = line_style(object, mesh, place, factors);
   return {std::move(imported), toon, std::move(shape), std::move(factors), std::move(line)};
 }
 

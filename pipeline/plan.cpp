@@ -103,6 +103,14 @@ Verdict curvature(const Facts& f) {
   return {true, "the line's width follows the curvature of " + objects(n)};
 }
 
+Verdict control_points(const Facts& f) {
+  if (!f.draws()) return {false, no_object};
+  const std::size_t n =
+      f.count([](const ObjectScene& o) { return o.outline && o.outline->method == OutlineScene::Method::Control; });
+  if (n == 0) return {false, "no line's width follows control points"};
+  return {true, "the line's width follows feature and control points of " + objects(n)};
+}
+
 Verdict draw(const Facts& f) {
   if (!f.draws()) return {false, std::string(no_object) + ": no OpenGL context is made"};
   return {true, objects(f.scene.objects.size()) + " to draw"};
@@ -155,7 +163,8 @@ const std::vector<Kind>& kinds() {
       {"flat", flat, {"import"}},
       {"holdout", holdout, {"import"}},
       {"curvature", curvature, {"import", "animate"}},
-      {"outline", outline, {"import", "curvature"}},
+      {"control-points", control_points, {"import", "animate"}},
+      {"outline", outline, {"import", "curvature", "control-points"}},
       {"draw", draw, {"decode", "track", "smooth", "animate", "toon", "flat", "holdout", "outline"}},
       {"lens", lens, {"draw"}},
       {"composite", composite, {"decode", "draw", "lens"}},

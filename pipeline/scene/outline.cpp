@@ -28,14 +28,24 @@ void read_width(const Table& outline, OutlineScene& scene) {
 void read_curvature_width(const Table& outline, OutlineScene& scene) {
   using O = OutlineScene;
   scene.method =
-      read_choice<O::Method>(outline, "method", {{"uniform", O::Method::Uniform}, {"curvature", O::Method::Curvature}})
+      read_choice<O::Method>(
+          outline, "method",
+          {{"uniform", O::Method::Uniform}, {"curvature", O::Method::Curvature}, {"control", O::Method::Control}})
           .value_or(scene.method);
-  for (const std::string_view key :
-       {"curvature", "sign", "exaggeration", "saturation", "curve", "min_factor", "smoothing"}) {
+  for (const std::string_view key : {"curvature", "sign", "saturation", "curve", "min_factor"}) {
     if (outline.has(key) && scene.method != O::Method::Curvature) {
       throw outline.error_at(key, "goes with method = \"curvature\"", "add that, or leave it out");
     }
   }
+  for (const std::string_view key : {"exaggeration", "smoothing"}) {
+    if (outline.has(key) && scene.method == O::Method::Uniform) {
+      throw outline.error_at(key, "goes with method = \"curvature\" or \"control\"", "add that, or leave it out");
+    }
+  }
+  if (outline.has("control") && scene.method != O::Method::Control) {
+    throw outline.error_at("control", "goes with method = \"control\"", "add that, or leave it out");
+  }
+  scene.control = read_control(outline);
   scene.curvature = read_choice<O::Curvature>(outline, "curvature",
                                               {{"mean", O::Curvature::Mean},
                                                {"gauss", O::Curvature::Gauss},
@@ -46,7 +56,7 @@ void read_curvature_width(const Table& outline, OutlineScene& scene) {
                    outline, "sign",
                    {{"magnitude", O::Sign::Magnitude}, {"convex", O::Sign::Convex}, {"concave", O::Sign::Concave}})
                    .value_or(scene.sign);
-  if (scene.method == O::Method::Curvature) scene.taper_px = 15;
+  if (scene.method != O::Method::Uniform) scene.taper_px = 15;
   scene.exaggeration = outline.number("exaggeration", {0, 20}).value_or(scene.exaggeration);
   scene.saturation = outline.number("saturation", Limits::above(0, 1000)).value_or(scene.saturation);
   scene.curve = outline.number("curve", Limits::above(0, 10)).value_or(scene.curve);
@@ -57,9 +67,13 @@ void read_curvature_width(const Table& outline, OutlineScene& scene) {
 }  // namespace
 
 toml::Schema outline_schema() {
-  return {{.path = "object.outline",
-           .keys = {"width_px", "width_m", "min_px", "max_px", "taper_px", "colour", "method", "curvature", "sign",
-                    "exaggeration", "saturation", "curve", "min_factor", "smoothing"}}};
+  toml::Schema schema = {
+      {.path = "object.outline",
+       .keys = {"width_px", "width_m", "min_px", "max_px", "taper_px", "colour", "method", "curvature", "sign",
+                "exaggeration", "saturation", "curve", "min_factor", "smoothing", "control"}}};
+  const toml::Schema control = control_schema();
+  schema.insert(schema.end(), control.begin(), control.end());
+  return schema;
 }
 
 std::optional<OutlineScene> read_outline(const Table& object) {

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "outline/width_options.h"
+#include "pipeline/scene/control.h"
 #include "pipeline/toml/table.h"
 
 namespace rinkaku::pipeline {
@@ -14,9 +15,9 @@ struct OutlineScene {
   std::optional<double> width_m;  ///< in place of width_px
   double min_px = 0;              ///< for width_m
   double max_px = 40;
-  double taper_px = 0;                             ///< 0: lines end blunt; by default 15 with the method Curvature
+  double taper_px = 0;  ///< 0: lines end blunt; by default 15 with the methods Curvature and Control
   std::array<double, 3> colour{0.07, 0.05, 0.09};  ///< sRGB
-  enum class Method { Uniform, Curvature } method = Method::Uniform;
+  enum class Method { Uniform, Curvature, Control } method = Method::Uniform;
   // For the method Curvature; see outline/width_options.h.
   using Curvature = outline::CurvatureKind;
   using Sign = outline::CurvatureSign;
@@ -27,6 +28,7 @@ struct OutlineScene {
   double curve = 1;
   double min_factor = 0.25;
   int smoothing = 3;
+  ControlScene control;  ///< for the method Control, which has exaggeration and smoothing as well
 };
 
 toml::Schema outline_schema();

@@ -265,6 +265,22 @@ INSTANTIATE_TEST_SUITE_P(
         BadScene{
             "ShadeNegative", object + "toon = { shade_colour = [0, 0, -0.1] }\n",
             "DIR/scene.toml:8:32: 'shade_colour' in toon of [[object]] must be three numbers from 0 to 1, found -0.1"},
+        BadScene{"ControlOfAnotherMethod", object + "outline = { control = { along = 20 } }\n",
+                 "DIR/scene.toml:8:23: 'control' in outline of [[object]] goes with method = \"control\"; add that, or "
+                 "leave it out"},
+        BadScene{
+            "ControlPointsTwice",
+            object + "outline = { method = \"control\", control = { along = 20, sphere = 20 } }\n",
+            "DIR/scene.toml:8:69: 'along' in control of outline of [[object]] can't stand beside 'sphere'; keep one "
+            "of them"},
+        BadScene{"ControlPointOfTwoNumbers",
+                 object + "outline = { method = \"control\", control = { points_m = [[1, 2]] } }\n",
+                 "DIR/scene.toml:8:60: 'points_m' in control of outline of [[object]] must be a list of points [[x, y, "
+                 "z], ...] in metres, at most 10000, found an array of 1"},
+        BadScene{"ThresholdsOfBothKinds",
+                 object + "outline = { method = \"control\", control = { convex = 1, concave_deg = 170 } }\n",
+                 "DIR/scene.toml:8:58: 'convex' in control of outline of [[object]] can't stand beside thresholds in "
+                 "degrees; give both as _deg, or none"},
         BadScene{"ClipFlag", object + "animation = { clip = true }\n",
                  "DIR/scene.toml:8:22: 'clip' in animation of [[object]] must be a clip's name or its number, counted "
                  "from 0, found true"},
@@ -292,10 +308,12 @@ INSTANTIATE_TEST_SUITE_P(
         BadScene{"LimitsCrossed", object + "outline = { width_m = 0.01, min_px = 5, max_px = 4 }\n",
                  "DIR/scene.toml:8:50: 'max_px' in outline of [[object]] must not be below 'min_px'"},
         BadScene{"UnknownMethod", object + "outline = { method = \"curved\" }\n",
-                 "DIR/scene.toml:8:22: 'method' in outline of [[object]] must be \"uniform\" or \"curvature\", found "
+                 "DIR/scene.toml:8:22: 'method' in outline of [[object]] must be \"uniform\", \"curvature\" or "
+                 "\"control\", found "
                  "the text \"curved\""},
         BadScene{"ExaggeratedUniform", object + "outline = { exaggeration = 2 }\n",
-                 "DIR/scene.toml:8:28: 'exaggeration' in outline of [[object]] goes with method = \"curvature\"; add "
+                 "DIR/scene.toml:8:28: 'exaggeration' in outline of [[object]] goes with method = \"curvature\" or "
+                 "\"control\"; add "
                  "that, or leave it out"},
         BadScene{"UnknownSign", object + "outline = { method = \"curvature\", sign = \"thick\" }\n",
                  "DIR/scene.toml:8:42: 'sign' in outline of [[object]] must be \"magnitude\", \"convex\" or "
