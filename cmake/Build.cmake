@@ -25,6 +25,11 @@ if(RINKAKU_SANITIZE)
   endif()
 endif()
 
+if(RINKAKU_FUZZ)
+  target_compile_options(rinkaku_build INTERFACE -fsanitize=fuzzer-no-link,address,undefined -fno-omit-frame-pointer)
+  target_link_options(rinkaku_build INTERFACE -fsanitize=address,undefined)
+endif()
+
 # Programs link this.
 add_library(rinkaku_program INTERFACE)
 target_link_libraries(rinkaku_program INTERFACE rinkaku_build)

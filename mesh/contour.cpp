@@ -112,16 +112,21 @@ void ContourFinder::borrow_normals(std::span<const glm::uvec3> faces, std::span<
   }
 }
 
-const Contour& ContourFinder::find(const glm::dvec4& eye, const ContourLists& lists) {
-  classify(eye);
+const Contour& ContourFinder::find(const glm::dvec4& eye, const ContourLists& lists, const KnownFaces* known) {
+  if (known != nullptr) {
+    classify_doubtful(seen_from(eye), *known);
+  } else {
+    classify_all(seen_from(eye));
+  }
+  result_.front = front_;
   result_.front_indices = result_.edges = {};
   result_.front_parts = {};
   if (lists.front) list_front();
-  if (lists.edges) list_edges();
+  if (lists.edges) list_edges(known);
   return result_;
 }
 
-void ContourFinder::classify(const glm::dvec4& eye) {
+ContourFinder::Seen ContourFinder::seen_from(const glm::dvec4& eye) const {
   const double sign = eye.w < 0 ? -1.0 : 1.0;
   glm::dvec3 towards = (glm::dvec3(eye) - eye.w * origin_) * sign;
   double w = eye.w * sign;
@@ -130,13 +135,14 @@ void ContourFinder::classify(const glm::dvec4& eye) {
     towards /= scale;
     w /= scale;
   }
-  const auto ex = static_cast<float>(towards.x);
-  const auto ey = static_cast<float>(towards.y);
-  const auto ez = static_cast<float>(towards.z);
-  const auto ew = static_cast<float>(w);
   // No point of the mesh is further from the eye than this, so the margin is an angle at least as large as asked for.
-  const auto margin = static_cast<float>(options_.margin * (glm::length(towards) + w * radius_));
+  const double margin = options_.margin * (glm::length(towards) + w * radius_);
+  return {static_cast<float>(towards.x), static_cast<float>(towards.y), static_cast<float>(towards.z),
+          static_cast<float>(w), static_cast<float>(margin)};
+}
 
+void ContourFinder::classify_all(const Seen& eye) {
+  known_serial_ = 0;
   const std::size_t count = triangles_.size();
   const float* nx = nx_.data();
   const float* ny = ny_.data();
@@ -145,12 +151,27 @@ void ContourFinder::classify(const glm::dvec4& eye) {
   const std::uint8_t* two_sided = two_sided_.data();
   std::uint8_t* front = front_.data();
   std::uint8_t* seen_front = seen_front_.data();
+  const Seen e = eye;  // a copy, that no store may change
   for (std::size_t f = 0; f < count; ++f) {
-    const float distance = nx[f] * ex + ny[f] * ey + nz[f] * ez - offset[f] * ew;
+    const float distance = nx[f] * e.x + ny[f] * e.y + nz[f] * e.z - offset[f] * e.w;
     front[f] = distance > 0 ? 1 : 0;
-    seen_front[f] = static_cast<std::uint8_t>((distance > -margin ? 1 : 0) | two_sided[f]);
+    seen_front[f] = static_cast<std::uint8_t>((distance > -e.margin ? 1 : 0) | two_sided[f]);
   }
-  result_.front = front_;
+}
+
+void ContourFinder::classify_doubtful(const Seen& eye, const KnownFaces& known) {
+  if (known.serial != known_serial_) {
+    std::copy(known.front.begin(), known.front.end(), front_.begin());
+    for (std::size_t f = 0; f < front_.size(); ++f) {
+      seen_front_[f] = static_cast<std::uint8_t>(front_[f] | two_sided_[f]);
+    }
+    known_serial_ = known.serial;
+  }
+  for (const std::uint32_t f : known.doubtful) {
+    const float distance = nx_[f] * eye.x + ny_[f] * eye.y + nz_[f] * eye.z - offset_[f] * eye.w;
+    front_[f] = distance > 0 ? 1 : 0;
+    seen_front_[f] = static_cast<std::uint8_t>((distance > -eye.margin ? 1 : 0) | two_sided_[f]);
+  }
 }
 
 namespace {
@@ -179,13 +200,21 @@ void ContourFinder::list_front() {
   result_.front_parts = front_parts_;
 }
 
-void ContourFinder::list_edges() {
+void ContourFinder::list_edges(const KnownFaces* known) {
   const std::uint8_t* front = front_.data();
   std::uint32_t* out = contour_.data();
   std::uint32_t edge = 0;
-  for (const EdgeFaces& faces : consistent_) {
-    *out = edge++;
-    out += front[faces.face0] ^ front[faces.face1];
+  if (known != nullptr) {
+    for (const std::uint32_t e : known->edges) {
+      *out = e;
+      out += front[consistent_[e].face0] ^ front[consistent_[e].face1];
+    }
+    edge = static_cast<std::uint32_t>(consistent_.size());
+  } else {
+    for (const EdgeFaces& faces : consistent_) {
+      *out = edge++;
+      out += front[faces.face0] ^ front[faces.face1];
+    }
   }
   for (const EdgeFaces& faces : inconsistent_) {
     *out = edge++;

@@ -15,13 +15,23 @@ namespace rinkaku::mesh {
 struct ContourOptions {
   /// Sine of the angle to the line of sight under which a face counts as seen from both sides, so that one which a
   /// rasteriser takes for front-facing is never left out of the front triangles.
-  double margin = 1e-3;
+  double margin = 1e-5;
 };
 
 /// Indices of one part of the mesh within a list.
 struct IndexRange {
   std::uint32_t first = 0;
   std::uint32_t count = 0;
+};
+
+/// What is known beforehand about every eye in some part of space: which faces it sees from the front, and where its
+/// contour may run. find() then looks at nothing else.
+struct KnownFaces {
+  std::span<const std::uint8_t> front;      ///< per face: 1 if every such eye is on its outer side
+  std::span<const std::uint32_t> doubtful;  ///< faces about which nothing is known; of all others `front` is right
+  /// Edges of Topology::consistent_edges that are not between two faces of which the same is known; growing.
+  std::span<const std::uint32_t> edges;
+  std::uint64_t serial = 0;  ///< differs if the rest does; not 0
 };
 
 /// Which lists find() makes; those not asked for are empty.
@@ -53,9 +63,11 @@ class ContourFinder {
  public:
   ContourFinder(const Mesh& mesh, const Topology& topology, const ContourOptions& options = {});
 
-  const Contour& find(const glm::dvec4& eye, const ContourLists& lists = {});
-  const Contour& find(const glm::dvec3& eye, const ContourLists& lists = {}) {
-    return find(glm::dvec4(eye, 1.0), lists);
+  /// With `known` (of the eye) the same is found in less time: about a third. Faces are doubtful that have a winding
+  /// of their own (inconsistently wound components) or lie within a thousandth of a radian of being seen from the side.
+  const Contour& find(const glm::dvec4& eye, const ContourLists& lists = {}, const KnownFaces* known = nullptr);
+  const Contour& find(const glm::dvec3& eye, const ContourLists& lists = {}, const KnownFaces* known = nullptr) {
+    return find(glm::dvec4(eye, 1.0), lists, known);
   }
 
   /// The mesh's points have moved. `faces` are the topology's, `points` finite and in its order. Faces without area
@@ -66,11 +78,17 @@ class ContourFinder {
   struct EdgeFaces {
     std::uint32_t face0, face1;
   };
-  void classify(const glm::dvec4& eye);
+  // An eye within reach of float, and how near a face's plane it may be for the face to count as seen.
+  struct Seen {
+    float x, y, z, w, margin;
+  };
+  Seen seen_from(const glm::dvec4& eye) const;
+  void classify_all(const Seen& eye);
+  void classify_doubtful(const Seen& eye, const KnownFaces& known);
   void move_planes(std::span<const glm::uvec3> faces, std::span<const glm::vec3> points);
   void borrow_normals(std::span<const glm::uvec3> faces, std::span<const glm::vec3> points);
   void list_front();
-  void list_edges();
+  void list_edges(const KnownFaces* known);
 
   ContourOptions options_;
   glm::dvec3 origin_{0};  ///< planes are relative to it
@@ -90,6 +108,7 @@ class ContourFinder {
   std::vector<std::uint32_t> flat_faces_;
   std::vector<std::uint32_t> front_indices_, contour_;
   std::vector<IndexRange> front_parts_;
+  std::uint64_t known_serial_ = 0;  // whose faces front_ and seen_front_ hold
   Contour result_;
 };
 

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <atomic>
 #include <condition_variable>
 #include <cstddef>
+#include <cstdint>
 #include <deque>
 #include <exception>
 #include <mutex>
@@ -10,18 +12,31 @@
 
 namespace rinkaku::pipeline {
 
+/// What a full queue does with one value more: recordings wait for room, live pictures are worth nothing once old.
+enum class WhenFull { Wait, DropOldest };
+
 /// Hands values from one thread to the next and keeps at most `capacity` of them waiting: a full queue makes its
-/// producer wait. What a producer throws comes out at the consumer's side, after the values before it.
+/// producer wait, or drops the value that waits longest. What a producer throws comes out at the consumer's side, after
+/// the values before it.
 template <typename T>
 class BoundedQueue {
  public:
   explicit BoundedQueue(std::size_t capacity) : capacity_(capacity) {}
+  /// `dropped` counts what WhenFull::DropOldest drops, and outlives the queue.
+  BoundedQueue(std::size_t capacity, WhenFull when_full, std::atomic<std::int64_t>& dropped)
+      : capacity_(capacity), when_full_(when_full), dropped_(&dropped) {}
 
   /// False if the consumer has gone; the value is then dropped.
   bool push(T value) {
     std::unique_lock lock(mutex_);
-    room_.wait(lock, [this] { return abandoned_ || values_.size() < capacity_; });
+    if (when_full_ == WhenFull::Wait) {
+      room_.wait(lock, [this] { return abandoned_ || values_.size() < capacity_; });
+    }
     if (abandoned_) return false;
+    while (values_.size() >= capacity_) {
+      values_.pop_front();
+      ++*dropped_;
+    }
     values_.push_back(std::move(value));
     lock.unlock();
     filled_.notify_one();
@@ -65,6 +80,8 @@ class BoundedQueue {
 
  private:
   const std::size_t capacity_;
+  const WhenFull when_full_ = WhenFull::Wait;
+  std::atomic<std::int64_t>* const dropped_ = nullptr;
   std::mutex mutex_;
   std::condition_variable room_, filled_;
   std::deque<T> values_;

@@ -11,12 +11,11 @@
 
 #include <glm/vec3.hpp>
 
-#include "outline/line_width.h"
-#include "outline/pass/hull_pass.h"
 #include "pipeline/animated.h"
-#include "pipeline/control_line.h"
+#include "pipeline/fluff.h"
 #include "pipeline/gl/context.h"
 #include "pipeline/in_parallel.h"
+#include "pipeline/outline_passes.h"
 #include "pipeline/passes/holdout/holdout_pass.h"
 #include "pipeline/passes/layer_renderer.h"
 #include "pipeline/passes/toon/band_borders.h"
@@ -28,73 +27,12 @@ namespace {
 
 glm::vec3 colour(const std::array<double, 3>& c) { return glm::vec3(c[0], c[1], c[2]); }
 
-using PassList = std::vector<std::unique_ptr<passes::ObjectPass>>;
-
 passes::ToonOptions toon_options(const ObjectScene& object, const LightScene& light) {
   passes::ToonOptions options;
   options.bands = object.toon ? object.toon->bands : 0;
   if (object.toon) options.shade_colour = colour(object.toon->shade_colour);
   options.light = glm::vec3(light.direction);
   return options;
-}
-
-outline::WidthOptions width_options(const OutlineScene& line) {
-  outline::WidthOptions options;
-  options.kind = line.curvature;
-  options.sign = line.sign;
-  options.exaggeration = static_cast<float>(line.exaggeration);
-  options.saturation = static_cast<float>(line.saturation);
-  options.curve = static_cast<float>(line.curve);
-  options.least = static_cast<float>(line.min_factor);
-  options.smoothing = line.smoothing;
-  return options;
-}
-
-// Widths that follow the shape: found once, in `factors`, or in every frame of an object that is animated.
-template <typename Widths>
-void follow_shape(std::shared_ptr<Widths> widths, const mesh::Topology& topology, const ObjectScene& object,
-                  std::vector<float>& factors, passes::LineStyle& style) {
-  if (object.animation) {
-    style.most_factor = 1 + static_cast<float>(object.outline->exaggeration);
-    style.follow = [widths](const passes::LineStyle::Moved& now) { widths->at(now.points, now.wanted, now.factors); };
-    return;
-  }
-  const std::span<const float> found = widths->at(topology.points);
-  factors.assign(found.begin(), found.end());
-  style.factors = factors;
-}
-
-// What its width does along the line; the factors' memory is `factors`.
-passes::LineStyle line_style(const ObjectScene& object, const mesh::Mesh& mesh, const glm::dmat4& world_from_object,
-                             std::vector<float>& factors) {
-  passes::LineStyle style;
-  if (!object.outline) return style;
-  const OutlineScene& line = *object.outline;
-  style.taper_px = static_cast<float>(line.taper_px);
-  if (line.method == OutlineScene::Method::Uniform) return style;
-  const mesh::Topology topology = mesh::topology(mesh);
-  if (line.method == OutlineScene::Method::Curvature) {
-    follow_shape(std::make_shared<outline::CurvatureWidths>(topology, width_options(line)), topology, object, factors,
-                 style);
-  } else {
-    follow_shape(std::make_shared<outline::ControlWidths>(control_widths(line, topology, world_from_object)), topology,
-                 object, factors, style);
-  }
-  return style;
-}
-
-void add_outline(PassList& list, passes::DrawnObject& drawn, const ObjectScene& object,
-                 const passes::LineStyle& style) {
-  if (!object.outline) return;
-  const OutlineScene& line = *object.outline;
-  outline::HullOptions options;
-  options.width_px = static_cast<float>(line.width_px);
-  options.width_m = static_cast<float>(line.width_m.value_or(0));
-  options.least_px = static_cast<float>(line.min_px);
-  options.most_px = static_cast<float>(line.max_px);
-  options.colour = colour(line.colour);
-  options.style = style;
-  list.push_back(std::make_unique<outline::HullPass>(drawn, options));
 }
 
 // What of an object needs no GL.
@@ -104,6 +42,7 @@ struct PreparedObject {
   passes::ObjectShape shape;
   std::vector<float> line_factors;  // what `line` refers to
   passes::LineStyle line;
+  std::optional<Fluff> fluff;
 };
 
 mesh::Imported import_mesh(const ObjectScene& object) {
@@ -133,12 +72,32 @@ PreparedObject prepare(mesh::Imported imported, const ObjectScene& object, const
     shape.animate(mesh, imported.rig, playback(*object.animation, imported.rig, object.mesh));
   }
   std::vector<float> factors;
-  passes::LineStyle line = line_style(object, mesh, place, factors);
-  return {std::move(imported), toon, std::move(shape), std::move(factors), std::move(line)};
+  passes::LineStyle line;
+  if (object.outline) line = line_style(mesh, place, *object.outline, object.animation.has_value(), factors);
+  std::optional<Fluff> fluff;
+  if (object.fluffy) fluff = prepare_fluff(object, mesh, place);
+  if (object.fluffy && object.outline) thin_line_under_fluff(factors, object, mesh);
+  line.factors = factors;
+  return {std::move(imported), toon, std::move(shape), std::move(factors), std::move(line), std::move(fluff)};
+}
+
+// One object after the other, as baking takes all cores.
+void use_regions(const Scene& scene, std::span<std::optional<PreparedObject>> all, const RegionOptions& options) {
+  std::vector<PlacedBox> boxes;
+  for (const auto& one : all) {
+    boxes.push_back({mesh::bounding_box(one->imported.mesh.positions), one->shape.world_from_object()});
+  }
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const ObjectScene& object = scene.objects[i];
+    if (region_use(object) == RegionUse::None) continue;
+    bool apart = true;
+    for (std::size_t k = 0; k < boxes.size(); ++k) apart = apart && (k == i || are_apart(boxes[i], boxes[k]));
+    all[i]->shape.use_regions(region_knowledge(object, all[i]->imported.mesh, apart, options));
+  }
 }
 
 // Objects of one file share its import, which takes a process.
-std::vector<std::optional<PreparedObject>> prepare_all(const Scene& scene) {
+std::vector<std::optional<PreparedObject>> prepare_all(const Scene& scene, const RegionOptions& regions) {
   std::map<std::tuple<std::filesystem::path, double, bool>, std::size_t> known;
   std::vector<const ObjectScene*> distinct;
   std::vector<std::size_t> import_of;
@@ -154,6 +113,7 @@ std::vector<std::optional<PreparedObject>> prepare_all(const Scene& scene) {
   in_parallel(prepared.size(), [&](std::size_t i) {
     prepared[i].emplace(prepare(imported[import_of[i]], scene.objects[i], scene.light));
   });
+  use_regions(scene, prepared, regions);
   return prepared;
 }
 
@@ -172,31 +132,67 @@ Drawing::~Drawing() {
   renderer.reset();
 }
 
-Drawing make_drawing(const Scene& scene, const passes::PixelRect& picture) {
-  auto preparing = std::async(std::launch::async, prepare_all, std::cref(scene));
-  Drawing drawing;
-  drawing.context = gl::Context::headless();
-  std::vector<std::optional<PreparedObject>> all = preparing.get();
+namespace {
+
+// The objects on the GPU with their passes; what their import had to say goes to `notices`.
+std::vector<passes::StyledObject> style(const Scene& scene, std::vector<std::optional<PreparedObject>> all,
+                                        std::vector<std::string>& notices) {
   std::vector<passes::StyledObject> styled;
   for (std::size_t i = 0; i < all.size(); ++i) {
     const ObjectScene& object = scene.objects[i];
     PreparedObject& prepared = *all[i];
     for (const std::string& warning : prepared.imported.summary.warnings) {
-      drawing.notices.push_back(object.mesh.string() + ": " + warning);
+      notices.push_back(object.mesh.string() + ": " + warning);
     }
     passes::StyledObject one;
     one.object = std::make_unique<passes::DrawnObject>(std::move(prepared.shape));
     // The list of passes, in drawing order. A new pass adds its line here.
+    // Edges are drawn from the list's end on.
+    std::unique_ptr<passes::ObjectPass> fluff;
+    if (prepared.fluff) fluff = make_fluffy_pass(*one.object, *prepared.fluff, object, scene.light);
+    if (fluff && !fluff_is_under_line(object)) one.passes.push_back(std::move(fluff));
     if (object.holdout) {
       one.passes.push_back(std::make_unique<passes::HoldoutPass>(*one.object));
     } else {
       one.passes.push_back(std::make_unique<passes::ToonPass>(*one.object, prepared.imported.mesh, prepared.toon));
     }
-    add_outline(one.passes, *one.object, object, prepared.line);
+    if (object.outline) add_outline(one, prepared.imported.mesh, *object.outline, prepared.line);
+    if (fluff) one.passes.push_back(std::move(fluff));
     styled.push_back(std::move(one));
   }
-  drawing.renderer = std::make_unique<passes::LayerRenderer>(std::move(styled), picture);
+  return styled;
+}
+
+}  // namespace
+
+Drawing make_drawing(const Scene& scene, const passes::PixelRect& picture, const RegionOptions& regions) {
+  auto preparing = std::async(std::launch::async, prepare_all, std::cref(scene), std::cref(regions));
+  Drawing drawing;
+  drawing.context = gl::Context::headless();
+  drawing.picture = picture;
+  drawing.renderer =
+      std::make_unique<passes::LayerRenderer>(style(scene, preparing.get(), drawing.notices), drawing.picture);
   return drawing;
+}
+
+struct PreparedObjects::All {
+  std::vector<std::optional<PreparedObject>> objects;
+};
+PreparedObjects::PreparedObjects(std::unique_ptr<All> all) : all_(std::move(all)) {}
+PreparedObjects::~PreparedObjects() = default;
+PreparedObjects::PreparedObjects(PreparedObjects&&) noexcept = default;
+PreparedObjects& PreparedObjects::operator=(PreparedObjects&&) noexcept = default;
+
+PreparedObjects prepare_objects(const Scene& scene) {
+  auto all = std::make_unique<PreparedObjects::All>();
+  all->objects = prepare_all(scene, {});
+  return PreparedObjects(std::move(all));
+}
+
+void redraw(Drawing& drawing, const Scene& scene, PreparedObjects objects) {
+  std::vector<std::string> notices;  // said already when the run began
+  std::vector<passes::StyledObject> styled = style(scene, std::move(objects.all_->objects), notices);
+  drawing.renderer = std::make_unique<passes::LayerRenderer>(std::move(styled), drawing.picture);
 }
 
 }  // namespace rinkaku::pipeline

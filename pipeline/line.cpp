@@ -1,5 +1,6 @@
 #include "pipeline/line.h"
 
+#include <cassert>
 #include <chrono>
 #include <exception>
 #include <thread>
@@ -15,6 +16,10 @@ using Queue = BoundedQueue<Work>;
 
 // Deep enough to even out single slow frames, shallow enough that memory stays small: at 1080p a frame is 3 MB.
 constexpr std::size_t queue_frames = 4;
+// Live, every waiting frame is latency; but an encoder may hiccup for a moment without losing one.
+constexpr std::size_t live_queue_frames = 1, live_encode_frames = 8;
+
+float milliseconds(Clock::duration duration) { return std::chrono::duration<float, std::milli>(duration).count(); }
 
 // Worker threads that are joined on the way out, whichever way that is; closing the queues lets them go.
 class Threads {
@@ -44,7 +49,9 @@ void decode_all(const Line::Decode& decode, StageTimes& times, Queue& out) {
       const auto start = Clock::now();
       std::optional<Work> work = decode();
       if (!work) break;
-      times.add(Clock::now() - start);
+      const auto took = Clock::now() - start;
+      times.add(took);
+      work->stage_ms[0] = milliseconds(took);
       if (!out.push(std::move(*work))) break;
     }
     out.end();
@@ -90,10 +97,15 @@ std::exception_ptr take_in(Queue& in, const Stages& stages, std::int64_t& frames
 void Line::Stage::operator()(Work& work) {
   const auto start = Clock::now();
   step(work);
-  report.times.add(Clock::now() - start);
+  const auto took = Clock::now() - start;
+  report.times.add(took);
+  work.stage_ms[index] = milliseconds(took);
 }
 
-void Line::add(Group group, const char* name, Step step) { stages_.push_back({group, {name, {}}, std::move(step)}); }
+void Line::add(Group group, const char* name, Step step) {
+  assert(stages_.size() + 1 < Work::most_stages);
+  stages_.push_back({group, {name, {}}, std::move(step), stages_.size() + 1});
+}
 
 std::vector<Line::Stage*> Line::stages_of(Group group) {
   std::vector<Stage*> found;
@@ -103,10 +115,15 @@ std::vector<Line::Stage*> Line::stages_of(Group group) {
   return found;
 }
 
-std::int64_t Line::run(const Decode& decode, const std::function<void()>& drawn_one) {
+std::int64_t Line::run(const Decode& decode, const Drawn& drawn_one, Pace pace) {
   const auto track = stages_of(Group::Track), draw = stages_of(Group::Draw);
   const auto composite = stages_of(Group::Composite), encode = stages_of(Group::Encode);
-  Queue decoded(queue_frames), tracked(queue_frames), drawn(queue_frames), finished(queue_frames);
+  const bool newest = pace == Pace::NewestFrame;
+  const std::size_t waiting = newest ? live_queue_frames : queue_frames;
+  const WhenFull live_full = newest ? WhenFull::DropOldest : WhenFull::Wait;
+  Queue decoded(waiting, live_full, dropped_before_), tracked(waiting, live_full, dropped_before_),
+      drawn(waiting, live_full, dropped_before_);
+  Queue finished(newest ? live_encode_frames : queue_frames, live_full, dropped_drawn_);
   Queue& to_draw = track.empty() ? decoded : tracked;
   Queue& from_draw = composite.empty() ? finished : drawn;
   std::int64_t frames = 0;
@@ -122,6 +139,12 @@ std::int64_t Line::run(const Decode& decode, const std::function<void()>& drawn_
   }
   if (failure) std::rethrow_exception(failure);
   return frames;
+}
+
+std::vector<std::string> Line::stage_names() const {
+  std::vector<std::string> names{"decode"};
+  for (const Stage& stage : stages_) names.push_back(stage.report.name);
+  return names;
 }
 
 std::vector<StageReport> Line::reports() const {

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <array>
+#include <atomic>
+#include <cstddef>
 #include <cstdint>
 #include <deque>
 #include <functional>
@@ -20,6 +23,15 @@ struct Work {
   Frame frame;
   std::optional<TrackedPose> pose;
   passes::Layer layer;
+  /// How long each stage took over this very frame, in the order of Line::stage_names(); decoding is the first.
+  static constexpr std::size_t most_stages = 24;
+  std::array<float, most_stages> stage_ms{};
+};
+
+/// How frames move along a line.
+enum class Pace {
+  EveryFrame,   ///< recordings: a full queue makes its producer wait
+  NewestFrame,  ///< cameras: at most one frame waits before each thread, and gives way to a newer one
 };
 
 struct StageReport {
@@ -43,9 +55,20 @@ class Line {
 
   /// Gives the next frame's work, nothing after the last. Runs on the decoding thread; may throw.
   using Decode = std::function<std::optional<Work>()>;
+  using Drawn = std::function<void()>;
   /// Runs until `decode` gives nothing more, then returns how many frames came through to the end. `drawn` is called on
   /// the calling thread after each frame's drawing. Rethrows what a stage threw, once all threads have ended.
-  std::int64_t run(const Decode& decode, const std::function<void()>& drawn);
+  std::int64_t run(const Decode& decode, const Drawn& drawn, Pace pace = Pace::EveryFrame);
+
+  /// Decoding first, then the stages in the order of adding.
+  std::vector<std::string> stage_names() const;
+  /// Frames left out by Pace::NewestFrame so far: before they were finished, and finished ones that the last
+  /// group was too slow for. Any thread.
+  struct Dropped {
+    std::int64_t before = 0;
+    std::int64_t drawn = 0;
+  };
+  Dropped dropped() const { return {dropped_before_, dropped_drawn_}; }
 
   /// Of each stage, in the order of adding, decoding first.
   std::vector<StageReport> reports() const;
@@ -55,12 +78,14 @@ class Line {
     Group group;
     StageReport report;
     Step step;
+    std::size_t index;  // of Work::stage_ms
     void operator()(Work& work);
   };
   std::vector<Stage*> stages_of(Group group);
 
   StageTimes decode_times_;
   std::deque<Stage> stages_;
+  std::atomic<std::int64_t> dropped_before_{0}, dropped_drawn_{0};
 };
 
 /// Layers on their way back from where they are laid over the plate to where they are drawn, with their memory.

@@ -10,6 +10,7 @@
 #include "pipeline/line.h"
 #include "pipeline/plan.h"
 #include "pipeline/scene/scene.h"
+#include "pipeline/watcher.h"
 
 namespace rinkaku::pipeline {
 
@@ -23,6 +24,9 @@ struct RenderOptions {
   std::int64_t end_frame = std::numeric_limits<std::int64_t>::max();  ///< exclusive
   std::string layers_folder{};                                        ///< empty: layers are not written
   bool overwrite = false;
+  std::function<void(const std::string& line)> tell{};  ///< what set-up has to say at once, as it takes long
+  std::string virtual_camera{};                         ///< a video output device that gets the frames as well
+  bool watched = false;                                 ///< by a window: only `output` is then written, if it is given
 };
 
 struct RenderReport {
@@ -33,6 +37,7 @@ struct RenderReport {
   std::string output;
   std::int64_t posed_frames = 0;  ///< frames whose camera pose was known
   std::vector<StageReport> stages;
+  Line::Dropped dropped;             ///< live: frames that came while nobody was free for them
   std::vector<std::string> notices;  ///< damage, conversions, lines to be shown to the user
   bool interrupted = false;
 };
@@ -49,13 +54,14 @@ struct Prepared {
 };
 Prepared prepare(Scene scene, const RenderOptions& options);
 
-/// Renders a scene from its source to its sink; the main job.
+/// Renders a scene from its source to its sink, to whoever watches, or both; the main job.
 ///
 /// Decoding, tracking, drawing and encoding run at the same time, each on a thread of its own (drawing on the calling
 /// one), joined by bounded queues: memory does not grow with the video. Plate, pose and CG of a frame travel together.
+/// A camera's frames are not waited for by anybody: what comes too late is dropped, so that what is shown is new.
 /// `stop` set to true ends it as the end of the video would: what was rendered is kept and whole.
-/// Throws Error; nothing is then left under the output's name.
+/// With a watcher the scene needs no output. Throws Error; nothing is then left under the output's name.
 RenderReport render(const Prepared& prepared, const RenderOptions& options, const std::atomic<bool>& stop,
-                    const Progress& progress = {});
+                    const Progress& progress = {}, Watcher* watcher = nullptr);
 
 }  // namespace rinkaku::pipeline

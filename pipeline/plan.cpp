@@ -81,6 +81,23 @@ Verdict flat(const Facts& f) {
   return {true, objects(n) + " drawn flat (toon = false)"};
 }
 
+Verdict regions(const Facts& f) {
+  if (!f.draws()) return {false, no_object};
+  const std::size_t faces = f.count([](const ObjectScene& o) { return region_use(o) == RegionUse::Faces; });
+  const std::size_t cover = f.count([](const ObjectScene& o) { return region_use(o) == RegionUse::Cover; });
+  if (faces + cover == 0) return {false, "no object has regions"};
+  std::string why;
+  if (cover > 0)
+    why = objects(cover) +
+          " from few triangles, as nothing inside the shape shows: the matte product, or "
+          "depth where CG may cut in";
+  if (faces > 0) {
+    why += (cover > 0 ? "; " : "") + objects(faces) +
+           " without the back mesh, as shading or lines show: the colour product";
+  }
+  return {true, why};
+}
+
 Verdict holdout(const Facts& f) {
   if (!f.draws()) return {false, no_object};
   const std::size_t n = f.count([](const ObjectScene& o) { return o.holdout; });
@@ -109,6 +126,22 @@ Verdict control_points(const Facts& f) {
       f.count([](const ObjectScene& o) { return o.outline && o.outline->method == OutlineScene::Method::Control; });
   if (n == 0) return {false, "no line's width follows control points"};
   return {true, "the line's width follows feature and control points of " + objects(n)};
+}
+
+Verdict fluffy(const Facts& f) {
+  if (!f.draws()) return {false, no_object};
+  const std::size_t n = f.count([](const ObjectScene& o) { return o.fluffy.has_value(); });
+  if (n == 0) return {false, "no object is fluffy"};
+  return {true, objects(n) + " with fluff about the contour"};
+}
+
+Verdict line_targets(const Facts& f) {
+  if (!f.draws()) return {false, no_object};
+  const std::size_t n = f.count([](const ObjectScene& o) {
+    return o.outline && (needs_own_targets(o.outline->method) || o.outline->style.inner);
+  });
+  if (n == 0) return {false, "no line is found in pictures of its object"};
+  return {true, "lines of " + objects(n) + " need pictures of the object, in targets of their own"};
 }
 
 Verdict draw(const Facts& f) {
@@ -143,7 +176,20 @@ Verdict copy_streams(const Facts& f) {
   return {true, "sound and other streams are copied from the input"};
 }
 
-Verdict encode(const Facts&) { return {true, "frames go to the output"}; }
+Verdict show(const Facts& f) {
+  if (!f.request.watched) return {false, "frames are shown by play and live only"};
+  return {true, "frames are shown in a window"};
+}
+
+Verdict virtual_camera(const Facts& f) {
+  if (!f.request.virtual_camera) return {false, "no --virtual-camera was given"};
+  return {true, "other programs read the frames from a virtual camera"};
+}
+
+Verdict encode(const Facts& f) {
+  if (f.request.watched && f.scene.output.path.empty()) return {false, "nothing is recorded"};
+  return {true, "frames go to the output"};
+}
 
 // The table of stages, in the order a frame meets them. A new pass adds its line here.
 struct Kind {
@@ -162,15 +208,22 @@ const std::vector<Kind>& kinds() {
       {"toon", toon, {"import"}},
       {"flat", flat, {"import"}},
       {"holdout", holdout, {"import"}},
+      {"regions", regions, {"import"}},
       {"curvature", curvature, {"import", "animate"}},
+      {"line-targets", line_targets, {"import"}},
       {"control-points", control_points, {"import", "animate"}},
-      {"outline", outline, {"import", "curvature", "control-points"}},
-      {"draw", draw, {"decode", "track", "smooth", "animate", "toon", "flat", "holdout", "outline"}},
+      {"outline", outline, {"import", "curvature", "control-points", "line-targets"}},
+      {"fluffy", fluffy, {"import"}},
+      {"draw",
+       draw,
+       {"decode", "track", "smooth", "animate", "toon", "flat", "holdout", "regions", "outline", "fluffy"}},
       {"lens", lens, {"draw"}},
       {"composite", composite, {"decode", "draw", "lens"}},
       {"unmultiply", unmultiply, {"draw", "lens"}},
       {"layers", layers, {"draw", "lens"}},
       {"copy-streams", copy_streams, {}},
+      {"show", show, {"decode", "composite", "unmultiply"}},
+      {"virtual-camera", virtual_camera, {"decode", "composite", "unmultiply"}},
       {"encode", encode, {"decode", "composite", "unmultiply", "copy-streams"}},
   };
   return all;
@@ -182,9 +235,15 @@ bool Plan::runs(std::string_view name) const {
   return std::any_of(stages.begin(), stages.end(), [name](const Stage& s) { return s.name == name && s.runs; });
 }
 
+RegionUse region_use(const ObjectScene& object) {
+  if (!object.regions) return RegionUse::None;
+  const bool one_colour = object.colour && !object.toon && !object.outline;
+  return object.holdout || one_colour ? RegionUse::Cover : RegionUse::Faces;
+}
+
 Plan make_plan(const Scene& scene, const CameraModel* camera, const Request& request) {
   const Facts facts{scene, camera, request};
-  std::set<std::string_view> asked_for = {"encode", "layers"};  // the sinks
+  std::set<std::string_view> asked_for = {"encode", "layers", "show", "virtual-camera"};  // the sinks
   Plan plan;
   for (auto kind = kinds().rbegin(); kind != kinds().rend(); ++kind) {
     Stage stage;

@@ -10,11 +10,12 @@
 #include <glm/trigonometric.hpp>
 
 #include "mesh/bounds.h"
-#include "outline/pass/hull_pass.h"
 #include "pipeline/frame/error.h"
 #include "pipeline/gl/context.h"
+#include "pipeline/outline_passes.h"
 #include "pipeline/passes/composite/straight_alpha.h"
 #include "pipeline/passes/layer_renderer.h"
+#include "pipeline/passes/toon/band_borders.h"
 #include "pipeline/passes/toon/toon_pass.h"
 #include "pipeline/placement.h"
 
@@ -88,6 +89,12 @@ Frame laid_over(const passes::Layer& layer, const PortraitOptions& options) {
 
 }  // namespace
 
+OutlineScene thin_line() {
+  OutlineScene line;
+  line.width_px = 2;
+  return line;
+}
+
 Frame portrait(const mesh::Mesh& mesh, const PortraitOptions& options) {
   const glm::dmat4 world_from_mesh = place_in_unit_ball(mesh, options.up);
   passes::View view;
@@ -98,15 +105,15 @@ Frame portrait(const mesh::Mesh& mesh, const PortraitOptions& options) {
   passes::Layer layer;
   {
     passes::StyledObject styled;
-    styled.object = std::make_unique<passes::DrawnObject>(passes::ObjectShape(mesh, world_from_mesh));
     passes::ToonOptions toon;
     toon.shade_colour = {0.80f, 0.79f, 0.86f};
     toon.light = {-0.2f, -0.7f, 0.8f};
+    styled.object = std::make_unique<passes::DrawnObject>(
+        passes::ObjectShape(mesh, world_from_mesh, passes::band_borders(mesh, world_from_mesh, toon)));
     styled.passes.push_back(std::make_unique<passes::ToonPass>(*styled.object, mesh, toon));
-    if (options.line_width_px > 0) {
-      outline::HullOptions line;
-      line.width_px = static_cast<float>(options.line_width_px);
-      styled.passes.push_back(std::make_unique<outline::HullPass>(*styled.object, line));
+    if (options.outline) {
+      std::vector<float> factors;
+      add_outline(styled, mesh, *options.outline, line_style(mesh, world_from_mesh, *options.outline, false, factors));
     }
     std::vector<passes::StyledObject> objects;
     objects.push_back(std::move(styled));

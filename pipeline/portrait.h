@@ -1,20 +1,26 @@
 #pragma once
 
+#include <optional>
+
 #include <glm/vec3.hpp>
 
 #include "mesh/mesh.h"
 #include "pipeline/frame/frame.h"
+#include "pipeline/scene/outline.h"
 
 namespace rinkaku::pipeline {
+
+/// An even line of two pixels.
+OutlineScene thin_line();
 
 struct PortraitOptions {
   int width_px = 1024;
   int height_px = 1024;
-  char up = 'y';                              ///< the mesh's up axis
-  double turn_deg = 35;                       ///< to the side of the front
-  double raise_deg = 20;                      ///< above the ground
-  double margin = 0.06;                       ///< of the picture, left free at each side
-  double line_width_px = 2;                   ///< of the outline; 0 for none
+  char up = 'y';          ///< the mesh's up axis
+  double turn_deg = 35;   ///< to the side of the front
+  double raise_deg = 20;  ///< above the ground
+  double margin = 0.06;   ///< of the picture, left free at each side
+  std::optional<OutlineScene> outline = thin_line();
   glm::vec3 background{0.88f, 0.88f, 0.87f};  ///< sRGB-encoded
 };
 

@@ -11,6 +11,8 @@
 #include "pipeline/passes/composite/blend.h"
 #include "pipeline/passes/composite/straight_alpha.h"
 #include "pipeline/sink/output_names.h"
+#include "pipeline/sink/virtual_camera.h"
+#include "pipeline/source/v4l2/camera.h"
 #include "pipeline/track/camera_file.h"
 #include "pipeline/track/make_tracker.h"
 
@@ -25,9 +27,10 @@ bool is_file(const std::string& path) {
 }
 
 // Why the sound can't follow; empty if it can.
-std::string no_streams_because(const std::string& input, const std::string& output) {
+std::string no_streams_because(const std::string& input, const std::string& output, bool live) {
   if (output == "-") return "standard output takes the pictures only";
   if (output.find('%') != std::string::npos) return "the output is a sequence of images";
+  if (live) return "a camera has no other streams";
   if (!is_file(input) && input.find_first_of("%*?[") != std::string::npos) return "the input is a sequence of images";
   return {};
 }
@@ -88,26 +91,55 @@ PictureFormat straight_alpha_format(const PictureFormat& plate) {
   return passes::rgba_format(plate.width_px, plate.height_px, plate.sample_aspect);
 }
 
+// Where the scene leaves the size open, it is the one that the camera was calibrated at.
+source::v4l2::CameraOptions camera_options(const Prepared& prepared) {
+  const CameraDevice& scene = *prepared.scene.plate.device;
+  source::v4l2::CameraOptions options;
+  options.device = scene.device;
+  options.wish.width_px = scene.width_px;
+  options.wish.height_px = scene.height_px;
+  if (scene.width_px == 0 && prepared.camera) {
+    options.wish.width_px = prepared.camera->width_px;
+    options.wish.height_px = prepared.camera->height_px;
+  }
+  if (scene.fps) options.wish.rate = *scene.fps;
+  if (!scene.format.empty()) {
+    options.wish.format = source::v4l2::format_named(scene.format);
+    if (options.wish.format == 0) {
+      throw input_error(prepared.scene.file.string(), "the camera's format '" + scene.format + "' is none that is read",
+                        "give YUYV, UYVY, NV12, YU12, GREY or MJPG");
+    }
+  }
+  for (const CameraDevice::Control& control : scene.controls) {
+    options.controls.push_back({control.name, control.value, control.where});
+  }
+  return options;
+}
+
 }  // namespace
 
 Prepared prepare(Scene scene, const RenderOptions& options) {
-  if (!options.output.empty()) scene.output.path = options.output;
+  // Whoever looks on need not want what the scene writes.
+  if (!options.output.empty() || options.watched) scene.output.path = options.output;
   if (!options.codec.empty()) scene.output.codec = options.codec;
   if (options.bit_rate > 0) scene.output.bit_rate = options.bit_rate;
   Prepared prepared;
   if (!scene.plate.camera.empty()) prepared.camera = track::read_camera(scene.plate.camera);
   Request request;
+  request.watched = options.watched;
+  request.virtual_camera = !options.virtual_camera.empty();
   request.layers = !options.layers_folder.empty();
-  request.no_streams_because = no_streams_because(scene.plate.input, scene.output.path);
+  request.no_streams_because = no_streams_because(scene.plate.input, scene.output.path, scene.plate.device.has_value());
   prepared.plan = make_plan(scene, prepared.camera ? &*prepared.camera : nullptr, request);
   prepared.scene = std::move(scene);
   return prepared;
 }
 
 std::unique_ptr<source::Source> open_source(const Prepared& prepared) {
+  const PlateScene& plate = prepared.scene.plate;
   source::OpenOptions options;
-  if (prepared.scene.plate.fps) options.image_rate = *prepared.scene.plate.fps;
-  auto source = source::open(prepared.scene.plate.input, options);
+  if (plate.fps) options.image_rate = *plate.fps;
+  auto source = plate.device ? source::v4l2::open_camera(camera_options(prepared)) : source::open(plate.input, options);
   const PictureFormat& format = source->description().format;
   if (prepared.camera) {
     refuse_turned_camera(prepared, source->description());
@@ -159,6 +191,7 @@ Output open_output(const Prepared& prepared, const RenderOptions& options, const
   to.container = options.container;
   to.bit_rate = output.bit_rate;
   to.overwrite = options.overwrite;
+  to.recording = options.watched;
   sink::Incoming in = incoming(
       described, prepared.plan.runs("unmultiply") ? straight_alpha_format(described.format) : described.format);
   if (prepared.plan.runs("copy-streams")) in.copy_streams_from = prepared.scene.plate.input;
@@ -171,6 +204,17 @@ Output open_layers(const Prepared& prepared, const RenderOptions& options, const
   refuse_own_input(to.path, prepared.scene.plate.input);
   to.overwrite = options.overwrite;
   return open_in_folder(to, incoming(described, straight_alpha_format(described.format)));
+}
+
+std::unique_ptr<sink::Sink> open_virtual_camera(const Prepared& prepared, const RenderOptions& options,
+                                                const source::Description& described) {
+  if (prepared.scene.plate.device && options.virtual_camera == described.name) {
+    throw input_error(options.virtual_camera, "is the camera that is filmed with", "choose another virtual camera");
+  }
+  return sink::open_virtual_camera(
+      options.virtual_camera,
+      incoming(described,
+               prepared.plan.runs("unmultiply") ? straight_alpha_format(described.format) : described.format));
 }
 
 std::int64_t frames_expected(const source::Description& described, const RenderOptions& options) {

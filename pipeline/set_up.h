@@ -33,6 +33,10 @@ Output open_output(const Prepared& prepared, const RenderOptions& options, const
 /// PNGs of the CG alone in the layers folder: cg_000000.png, ...
 Output open_layers(const Prepared& prepared, const RenderOptions& options, const source::Description& described);
 
+/// Refuses the filmed camera itself.
+std::unique_ptr<sink::Sink> open_virtual_camera(const Prepared& prepared, const RenderOptions& options,
+                                                const source::Description& described);
+
 /// How many frames the run will have; 0 if the source doesn't tell.
 std::int64_t frames_expected(const source::Description& described, const RenderOptions& options);
 

@@ -265,6 +265,15 @@ void RegionFile::decode(std::uint32_t region, Product product, std::vector<std::
   }
 }
 
+void RegionFile::decode_roles(std::uint32_t region, std::vector<Role>& out) const {
+  out.clear();
+  out.reserve(mesh_triangles());
+  const format::Region& r = state_->region(region);
+  RunReader runs(state_->sound_data_of(r).first(r.role_bytes()), mesh_triangles());
+  while (const auto run = runs.next()) out.insert(out.end(), run->count, Role{run->value});
+  if (!runs.complete()) throw damaged(state_->name, "a region can't be unpacked");
+}
+
 void RegionFile::decode_colour(std::uint32_t region, std::span<const glm::uvec3> mesh,
                                std::vector<std::uint32_t>& out) const {
   out.clear();

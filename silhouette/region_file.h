@@ -10,6 +10,7 @@
 
 #include <glm/vec3.hpp>
 
+#include "silhouette/reduce.h"
 #include "silhouette/surface.h"
 #include "silhouette/view_regions.h"
 
@@ -61,6 +62,9 @@ class RegionFile {
   /// Preconditions: region < regions(); product is not Colour. Cost: about 5 ns a
   /// triangle of the list, 1 ns one of the mesh; allocates nothing if `out` has the capacity.
   void decode(std::uint32_t region, Product product, std::vector<std::uint32_t>& out) const;
+
+  /// Gives each triangle's role in a region, in the surface's order. Throws as decode().
+  void decode_roles(std::uint32_t region, std::vector<Role>& out) const;
 
   /// Gives the triangles of the mesh that can show in a region, as indices of the mesh's own vertices in the mesh's
   /// order. Precondition: `mesh` are the triangles of the mesh that the file belongs to. Throws as decode().

@@ -28,13 +28,12 @@ using Ahead = std::array<std::optional<std::uint32_t>, 2>;
 }  // namespace
 
 struct RegionLists::State {
-  State(std::shared_ptr<const RegionFile> of, const RegionListsOptions& with,
-        std::span<const glm::uvec3> mesh_triangles)
-      : file(std::move(of)), options(with), triangles(mesh_triangles), finder(file->space()) {}
+  State(std::shared_ptr<const RegionFile> of, RegionLists::Make how, const RegionListsOptions& with)
+      : file(std::move(of)), make(std::move(how)), options(with), finder(file->space()) {}
 
   const std::shared_ptr<const RegionFile> file;
+  const RegionLists::Make make;
   const RegionListsOptions options;
-  const std::span<const glm::uvec3> triangles;
   const RegionFinder finder;
 
   // The calling thread's own.
@@ -53,8 +52,7 @@ struct RegionLists::State {
   std::exception_ptr failure;
   std::jthread decoder;  // the last: it ends first
 
-  void reserve();
-  void decode(std::uint32_t region, std::vector<std::uint32_t>& out) const;
+  void start(std::size_t most_indices);
   void run(const std::stop_token& stop);
   Slot* slot_of(std::uint32_t region);
   Slot& slot_to_write();
@@ -63,21 +61,12 @@ struct RegionLists::State {
   bool expect(const Ahead& ahead);
 };
 
-void RegionLists::State::reserve() {
-  std::size_t most = 0;
-  for (std::uint32_t r = 0; r < file->regions(); ++r) {
-    most = std::max<std::size_t>(most, file->triangles(r, options.product));
-  }
+void RegionLists::State::start(std::size_t most_indices) {
   slots.resize(static_cast<std::size_t>(std::max(options.kept, 4)));
-  for (Slot& slot : slots) slot.indices.reserve(most * 3);
-}
-
-void RegionLists::State::decode(std::uint32_t region, std::vector<std::uint32_t>& out) const {
-  if (options.product == Product::Colour) {
-    file->decode_colour(region, triangles, out);
-  } else {
-    file->decode(region, options.product, out);
-  }
+  for (Slot& slot : slots) slot.indices.reserve(most_indices);
+  // A missing product shows at the first region, before the thread is there to meet it.
+  make(*file, 0, slots[0].indices);
+  decoder = std::jthread([this](const std::stop_token& stop) { run(stop); });
 }
 
 Slot* RegionLists::State::slot_of(std::uint32_t region) {
@@ -125,7 +114,7 @@ void RegionLists::State::run(const std::stop_token& stop) {
     lock.unlock();
     std::exception_ptr failed;
     try {
-      decode(*region, slot.indices);
+      make(*file, *region, slot.indices);
     } catch (...) {
       failed = std::current_exception();
     }
@@ -166,13 +155,27 @@ bool RegionLists::State::expect(const Ahead& ahead) {
 }
 
 RegionLists::RegionLists(std::shared_ptr<const RegionFile> file, const RegionListsOptions& options,
-                         std::span<const glm::uvec3> triangles)
-    : state_(std::make_unique<State>(std::move(file), options, triangles)) {
-  // A missing product shows at the first region, before the thread is there to meet it.
-  state_->reserve();
-  state_->decode(0, state_->slots[0].indices);
-  State& state = *state_;
-  state.decoder = std::jthread([&state](const std::stop_token& stop) { state.run(stop); });
+                         std::span<const glm::uvec3> triangles) {
+  const Product product = options.product;
+  std::size_t most = 0;
+  for (std::uint32_t r = 0; r < file->regions(); ++r) {
+    most = std::max<std::size_t>(most, file->triangles(r, product));
+  }
+  const auto decode = [product, triangles](const RegionFile& of, std::uint32_t region,
+                                           std::vector<std::uint32_t>& out) {
+    if (product == Product::Colour) {
+      of.decode_colour(region, triangles, out);
+    } else {
+      of.decode(region, product, out);
+    }
+  };
+  state_ = std::make_unique<State>(std::move(file), decode, options);
+  state_->start(most * 3);
+}
+
+RegionLists::RegionLists(std::shared_ptr<const RegionFile> file, Make make, const RegionListsOptions& options)
+    : state_(std::make_unique<State>(std::move(file), std::move(make), options)) {
+  state_->start(0);
 }
 
 RegionLists::~RegionLists() = default;

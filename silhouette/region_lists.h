@@ -1,8 +1,10 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <span>
+#include <vector>
 
 #include <glm/vec3.hpp>
 
@@ -37,6 +39,12 @@ class RegionLists {
   /// Throws Error (Input) if the file has no such product.
   RegionLists(std::shared_ptr<const RegionFile> file, const RegionListsOptions& options = {},
               std::span<const glm::uvec3> triangles = {});
+
+  /// Makes what is to be known of a region, in place of its list: whatever fits into numbers. `out` keeps its capacity.
+  /// Called on this object's own thread, and once in the constructor; what it throws is thrown by at().
+  using Make = std::function<void(const RegionFile& file, std::uint32_t region, std::vector<std::uint32_t>& out)>;
+  /// `options.product` is not read.
+  RegionLists(std::shared_ptr<const RegionFile> file, Make make, const RegionListsOptions& options = {});
   ~RegionLists();
   RegionLists(const RegionLists&) = delete;
   RegionLists& operator=(const RegionLists&) = delete;

@@ -22,6 +22,7 @@ int bake(const BakeCall& call) {
   silhouette::BakeOptions options;
   options.space = silhouette::RegionLayout{call.cells, call.shells, call.inner_radii};
   options.reduce.depth_distance = call.depth_radii;
+  options.reduce.drop_hidden = call.drop_hidden;
   std::optional<silhouette::Baked> baked;
   {
     ProgressBar bar("regions", "a second");
@@ -51,6 +52,9 @@ int bake(const BakeCall& call) {
   std::printf("%s: %u regions in %.1f s, %.1f MB; mattes need %.1f %% of %llu triangles on average, at most %.1f %%\n",
               call.output.c_str(), report.regions, report.seconds, static_cast<double>(report.bytes) / 1e6,
               report.mean_ratio * 100, static_cast<unsigned long long>(report.triangles_full), report.max_ratio * 100);
+  if (call.drop_hidden) {
+    std::printf("%.1f %% of these were left out as the front mesh hides them\n", report.hidden_gain * 100);
+  }
   if (treated.two_sided_components > 0) {
     std::printf("%u parts that are open or can't be wound alike are drawn from both sides\n",
                 treated.two_sided_components);

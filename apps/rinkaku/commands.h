@@ -23,6 +23,30 @@ struct RenderCall {
 };
 int render(const RenderCall& call);
 
+/// Of play and live.
+struct ViewCall {
+  std::string scene;
+  std::string input;   ///< play only
+  std::string camera;  ///< the rest but `seconds`, `no_panel`, `screenshots`: live only
+  std::string record;
+  std::string virtual_camera;
+  std::string session;
+  std::string codec;
+  std::string screenshots;
+  double seconds = 0;
+  bool headless = false;
+  bool no_panel = false;
+  bool force = false;
+  bool json = false;
+};
+int view(const ViewCall& call, bool live);
+
+struct DevicesCall {
+  std::vector<std::string> devices;  ///< empty: all there are
+  bool json = false;
+};
+int devices(const DevicesCall& call);
+
 struct ExplainCall {
   std::string scene;
   bool layers = false;
@@ -65,6 +89,20 @@ struct CurvatureCall {
 };
 int curvature(const CurvatureCall& call);
 
+struct SheetCall {
+  std::string mesh;
+  std::string output;
+  std::string styles;  ///< "a,b,c", or empty: all
+  double width_px = 3;
+  int cell_px = 360;
+  int columns = 4;
+  double turn_deg = 35;
+  double raise_deg = 20;
+  bool force = false;
+  bool json = false;
+};
+int sheet(const SheetCall& call);
+
 struct BakeCall {
   std::string mesh;
   std::string output;
@@ -72,6 +110,7 @@ struct BakeCall {
   int shells = 1;
   double inner_radii = 1.5;
   double depth_radii = 0;
+  bool drop_hidden = false;
   bool force = false;
   bool json = false;
 };

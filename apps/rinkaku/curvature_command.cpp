@@ -1,12 +1,12 @@
 #include <algorithm>
 #include <cstdio>
-#include <filesystem>
 #include <optional>
 
 #include <nlohmann/json.hpp>
 
 #include "apps/rinkaku/commands.h"
 #include "apps/rinkaku/json_output.h"
+#include "apps/rinkaku/picture_file.h"
 #include "mesh/import.h"
 #include "mesh/topology.h"
 #include "outline/curvature.h"
@@ -14,8 +14,6 @@
 #include "pipeline/files/pending_file.h"
 #include "pipeline/frame/error.h"
 #include "pipeline/portrait.h"
-#include "pipeline/sink/output_names.h"
-#include "pipeline/sink/sink.h"
 
 namespace rinkaku::app {
 namespace {
@@ -38,33 +36,6 @@ std::string csv(const mesh::Topology& topology, const outline::Curvature& curvat
   return text;
 }
 
-void refuse_own_input(const std::string& output, const std::string& input) {
-  std::error_code absent;
-  if (std::filesystem::equivalent(output, input, absent)) {
-    throw input_error(output, "is the input itself", "choose another output");
-  }
-}
-
-void check_picture(const CurvatureCall& call) {
-  files::PendingFile checked(call.picture, call.force);
-  if (!call.output.empty()) checked.must_not_be(call.output);
-  refuse_own_input(call.picture, call.mesh);
-  if (std::filesystem::path(call.picture).extension() != ".png" || sink::is_sequence(call.picture)) {
-    throw input_error(call.picture, "is no name of a PNG file", "give one that ends in .png");
-  }
-}
-
-void write_picture(const Frame& frame, const CurvatureCall& call) {
-  sink::Options to;
-  to.path = call.picture;
-  to.overwrite = call.force;
-  sink::Incoming incoming;
-  incoming.format = frame.format;
-  const auto sink = sink::open(to, incoming);
-  sink->write(frame);
-  sink->finish();
-}
-
 }  // namespace
 
 int curvature(const CurvatureCall& call) {
@@ -76,7 +47,10 @@ int curvature(const CurvatureCall& call) {
     table.emplace(call.output, call.force);
     refuse_own_input(call.output, call.mesh);
   }
-  if (!call.picture.empty()) check_picture(call);
+  if (!call.picture.empty()) {
+    if (table) files::PendingFile(call.picture, call.force).must_not_be(call.output);
+    check_picture_file(call.picture, call.mesh, call.force);
+  }
 
   const mesh::Imported imported = mesh::import(call.mesh);
   const mesh::Topology topology = mesh::topology(imported.mesh);
@@ -85,7 +59,8 @@ int curvature(const CurvatureCall& call) {
   if (!call.picture.empty()) {
     pipeline::PortraitOptions options;
     options.up = imported.summary.up;
-    write_picture(pipeline::portrait(outline::painted_with_curvature(imported.mesh, found, scale), options), call);
+    write_picture_file(pipeline::portrait(outline::painted_with_curvature(imported.mesh, found, scale), options),
+                       call.picture, call.force);
   }
   if (table) table->write(csv(topology, found));
 

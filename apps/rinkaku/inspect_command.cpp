@@ -1,16 +1,38 @@
 #include <cstdio>
+#include <optional>
 #include <string>
 
+#include <glm/geometric.hpp>
 #include <nlohmann/json.hpp>
 
 #include "apps/rinkaku/commands.h"
 #include "apps/rinkaku/json_output.h"
+#include "mesh/bounds.h"
 #include "mesh/inspect.h"
+#include "mesh/topology.h"
+#include "silhouette/surface.h"
 
 namespace rinkaku::app {
 namespace {
 
-nlohmann::json to_json(const mesh::Imported& imported, const mesh::Inspection& found) {
+// What mattes do about a mesh's parts; nothing for a mesh without triangles or size, which has no matte.
+std::optional<silhouette::Treatment> treatment_of(const mesh::Imported& imported) {
+  if (imported.mesh.triangles.empty() || glm::length(mesh::bounding_box(imported.mesh.positions).size()) <= 0) {
+    return std::nullopt;
+  }
+  return silhouette::make_surface(imported.mesh, mesh::topology(imported.mesh)).treatment;
+}
+
+nlohmann::json to_json(const silhouette::Treatment& treatment) {
+  return {{"single_sided_components", treatment.single_sided_components},
+          {"repaired_components", treatment.repaired_components},
+          {"turned_triangles", treatment.turned_triangles},
+          {"two_sided_components", treatment.two_sided_components},
+          {"two_sided_triangles", treatment.two_sided_triangles}};
+}
+
+nlohmann::json to_json(const mesh::Imported& imported, const mesh::Inspection& found,
+                       const std::optional<silhouette::Treatment>& treatment) {
   const mesh::ImportSummary& summary = imported.summary;
   nlohmann::json clips = nlohmann::json::array();
   for (const mesh::Clip& clip : summary.clips) clips.push_back({{"name", clip.name}, {"seconds", clip.duration_s}});
@@ -49,6 +71,7 @@ nlohmann::json to_json(const mesh::Imported& imported, const mesh::Inspection& f
             {"non_finite", summary.dropped_non_finite},
             {"bad_index", summary.dropped_bad_index},
             {"collapsed", summary.dropped_collapsed}}},
+          {"matte", treatment ? to_json(*treatment) : nlohmann::json()},
           {"warnings", summary.warnings}};
 }
 
@@ -58,7 +81,22 @@ void print_count(const char* name, std::uint64_t count) {
   if (count > 0) print_row(name, std::to_string(count));
 }
 
+std::string counted(std::uint64_t n, const char* what) { return std::to_string(n) + " " + what + (n == 1 ? "" : "s"); }
+
 std::string yes_or_no(bool yes) { return yes ? "yes" : "no"; }
+
+// How parts are made right for mattes (see docs/silhouette.md); nothing is said of meshes that are closed and sound.
+void print(const silhouette::Treatment& treatment) {
+  if (treatment.repaired_components > 0) {
+    print_row("matte", counted(treatment.repaired_components, "part") + " wound alike, " +
+                           counted(treatment.turned_triangles, "triangle") + " turned round for it");
+  }
+  if (treatment.two_sided_components > 0) {
+    print_row("matte", counted(treatment.two_sided_components, "part") + " of " +
+                           counted(treatment.two_sided_triangles, "triangle") +
+                           " drawn from both sides: open, non-manifold or one-sided");
+  }
+}
 
 void print(const mesh::Imported& imported, const mesh::Inspection& found) {
   const mesh::ImportSummary& summary = imported.summary;
@@ -102,10 +140,12 @@ void print(const mesh::Imported& imported, const mesh::Inspection& found) {
 int inspect(const InspectCall& call) {
   const mesh::Imported imported = mesh::import(call.mesh);
   const mesh::Inspection found = mesh::inspect(imported);
+  const std::optional<silhouette::Treatment> treatment = treatment_of(imported);
   if (call.json) {
-    print_json(to_json(imported, found));
+    print_json(to_json(imported, found, treatment));
   } else {
     print(imported, found);
+    if (treatment) print(*treatment);
   }
   return 0;
 }

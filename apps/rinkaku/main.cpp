@@ -22,11 +22,14 @@ struct CommandLine {
   CLI::App app{"rinkaku draws CG objects into filmed video, in front of and behind what was filmed, as a drawing."};
   std::function<int()> run;
   RenderCall render;
+  ViewCall play, live;
+  DevicesCall devices;
   ExplainCall explain;
   InspectCall inspect;
   BoardCall board;
   CalibrateCall calibrate;
   CurvatureCall curvature;
+  SheetCall sheet;
   BakeCall bake;
   MatteCall matte;
   VerifyCall verify;
@@ -38,11 +41,15 @@ struct CommandLine {
     app.set_version_flag("--version", "rinkaku " RINKAKU_VERSION);
     app.footer("rinkaku COMMAND --help shows a command's options with an example.");
     add_render();
+    add_play();
+    add_live();
+    add_devices();
     add_explain();
     add_inspect();
     add_board();
     add_calibrate();
     add_curvature();
+    add_sheet();
     add_bake();
     add_matte();
     add_verify();
@@ -67,7 +74,7 @@ struct CommandLine {
     CLI::App* sub =
         add("render", "Render a scene into a video or an image sequence.",
             "rinkaku render recordings/desk/scene.toml -o desk.mp4", [&c] { return rinkaku::app::render(c); });
-    sub->add_option("SCENE", c.scene, "Scene file (TOML)")->required();
+    sub->add_option("SCENE", c.scene, "Scene file (TOML), or the folder of a session that live kept")->required();
     sub->add_option("--input", c.input, "Video to use in place of the scene's");
     sub->add_option("-o,--output", c.output,
                     "Video file, image pattern such as out/%04d.png, or - for standard output (see --format)");
@@ -81,6 +88,50 @@ struct CommandLine {
         ->check(CLI::Range(std::int64_t{1000}, std::int64_t{10'000'000'000}));
     sub->add_option("--format", c.format, "What goes to standard output")->check(CLI::IsMember({"y4m", "raw"}));
     add_force(sub, c.force);
+    add_json(sub, c.json);
+  }
+
+  static void add_view(CLI::App* sub, ViewCall& c) {
+    sub->add_option("SCENE", c.scene, "Scene file (TOML)")->required();
+    sub->add_option("--seconds", c.seconds, "End by itself after so long")->check(CLI::Range(0.1, 1e9));
+    sub->add_flag("--no-panel", c.no_panel, "Begin with the panel closed (Tab opens it)");
+    sub->add_option("--screenshots", c.screenshots, "Folder for screenshots (key P); the current one if not given");
+    add_json(sub, c.json);
+  }
+
+  void add_play() {
+    ViewCall& c = play;
+    CLI::App* sub =
+        add("play",
+            "Show a recording's scene in a window: space pauses, . steps, F fills the screen, Tab opens the "
+            "panel, P takes a screenshot, Ctrl-S saves the scene, Home restarts, Q quits.",
+            "rinkaku play recordings/desk/scene.toml", [&c] { return rinkaku::app::view(c, false); });
+    add_view(sub, c);
+    sub->add_option("--input", c.input, "Video to use in place of the scene's");
+  }
+
+  void add_live() {
+    ViewCall& c = live;
+    CLI::App* sub = add("live", "Show a camera's scene in a window, with the keys of play.",
+                        "rinkaku live scene.toml --camera /dev/video0", [&c] { return rinkaku::app::view(c, true); });
+    add_view(sub, c);
+    sub->add_option("--camera", c.camera, "Camera to use in place of the scene's plate, as 'rinkaku devices' lists it");
+    sub->add_option("--record", c.record,
+                    "Video file to record what is shown to; playable at any moment, also if this is killed");
+    sub->add_option("--codec", c.codec, "Encoder of the recording; else by its ending");
+    sub->add_option("--session", c.session,
+                    "New folder to keep the session in: 'rinkaku render FOLDER' makes the same frames again");
+    sub->add_option("--virtual-camera", c.virtual_camera,
+                    "Video output device (v4l2loopback) that other programs read as a camera");
+    sub->add_flag("--headless", c.headless, "Without a window, until Ctrl-C or --seconds");
+    add_force(sub, c.force);
+  }
+
+  void add_devices() {
+    DevicesCall& c = devices;
+    CLI::App* sub = add("devices", "List the cameras there are, with their modes and controls.", "rinkaku devices",
+                        [&c] { return rinkaku::app::devices(c); });
+    sub->add_option("DEVICE", c.devices, "Only these, e.g. /dev/video0");
     add_json(sub, c.json);
   }
 
@@ -145,6 +196,26 @@ struct CommandLine {
     add_json(sub, c.json);
   }
 
+  void add_sheet() {
+    SheetCall& c = sheet;
+    CLI::App* sub = add("sheet", "Draw a mesh in every style of line, side by side.",
+                        "rinkaku sheet cat.glb -o sheet.png", [&c] { return rinkaku::app::sheet(c); });
+    sub->add_option("MESH", c.mesh, "Mesh file (glTF, GLB, VRM, OBJ, PLY, OFF, STL, FBX, ...)")->required();
+    sub->add_option("-o,--output", c.output, "PNG to write")->required();
+    sub->add_option("--styles", c.styles, "Only these, separated by commas: a method of a scene's outline each");
+    sub->add_option("--width-px", c.width_px, "The lines' width")->check(CLI::Range(0.1, 100.0))->capture_default_str();
+    sub->add_option("--cell-px", c.cell_px, "Size of one picture")->check(CLI::Range(64, 2048))->capture_default_str();
+    sub->add_option("--columns", c.columns, "Pictures side by side")->check(CLI::Range(1, 16))->capture_default_str();
+    sub->add_option("--turn-deg", c.turn_deg, "From how far to the side of the front it is seen")
+        ->check(CLI::Range(-360.0, 360.0))
+        ->capture_default_str();
+    sub->add_option("--raise-deg", c.raise_deg, "From how far above the ground")
+        ->check(CLI::Range(-89.0, 89.0))
+        ->capture_default_str();
+    add_force(sub, c.force);
+    add_json(sub, c.json);
+  }
+
   void add_bake() {
     BakeCall& c = bake;
     CLI::App* sub =
@@ -165,6 +236,8 @@ struct CommandLine {
                     "Add lists that keep the depth within this distance, in radii of the object; 0: none")
         ->check(CLI::Range(0.0, 1.0))
         ->capture_default_str();
+    sub->add_flag("--drop-hidden", c.drop_hidden,
+                  "Leave out of mattes what the front mesh hides from every eye of a region; takes twice as long");
     add_force(sub, c.force);
     add_json(sub, c.json);
   }

@@ -13,6 +13,7 @@
 #include "pipeline/files/pending_file.h"
 #include "pipeline/frame/error.h"
 #include "pipeline/pipeline.h"
+#include "pipeline/session/replay.h"
 
 namespace rinkaku::app {
 namespace {
@@ -59,8 +60,14 @@ nlohmann::json to_json(const pipeline::RenderReport& report) {
           {"width", report.width_px},
           {"height", report.height_px},
           {"interrupted", report.interrupted},
+          {"dropped", report.dropped.before + report.dropped.drawn},
           {"notices", report.notices},
           {"stages", stages}};
+}
+
+session::Session read_session(const RenderCall& call) {
+  if (!call.input.empty()) throw input_error("--input", "a session brings its own recording", "leave it out");
+  return session::read_session(call.scene);
 }
 
 void print_summary(const pipeline::RenderReport& report, bool to_standard_output) {
@@ -82,12 +89,17 @@ int render(const RenderCall& call) {
   options.bit_rate = call.bit_rate;
   options.layers_folder = call.layers;
   options.overwrite = call.force;
+  options.tell = [](const std::string& line) { std::fprintf(stderr, "rinkaku: note: %s\n", line.c_str()); };
   set_frames(call.frames, options);
   std::optional<files::PendingFile> timings;
   if (!call.timings.empty()) timings.emplace(call.timings, call.force);
 
-  const pipeline::Prepared prepared =
-      pipeline::prepare(pipeline::read_scene(call.scene, {.input = call.input}), options);
+  std::optional<session::Session> session;
+  if (session::is_session(call.scene)) session = read_session(call);
+  std::optional<session::Replay> replay;
+  if (session) replay.emplace(*session);
+  const pipeline::Prepared prepared = pipeline::prepare(
+      session ? session::scene_of(*session) : pipeline::read_scene(call.scene, {.input = call.input}), options);
   const bool pipes = prepared.scene.output.path == "-";
   if (pipes && call.json) {
     throw input_error("--json", "standard output already takes the frames", "use --timings FILE.json, or -o FILE");
@@ -96,8 +108,9 @@ int render(const RenderCall& call) {
   pipeline::RenderReport report;
   {
     ProgressBar bar;
-    report = pipeline::render(prepared, options, interrupted(),
-                              [&bar](std::int64_t done, std::int64_t total) { bar.update(done, total); });
+    report = pipeline::render(
+        prepared, options, interrupted(), [&bar](std::int64_t done, std::int64_t total) { bar.update(done, total); },
+        replay ? &*replay : nullptr);
   }
   if (timings) timings->write(json_text(to_json(report), 2));
   for (const std::string& notice : report.notices) std::fprintf(stderr, "rinkaku: note: %s\n", notice.c_str());

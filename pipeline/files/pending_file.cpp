@@ -32,7 +32,8 @@ void check_folder(const std::string& path, const fs::path& folder) {
 
 }  // namespace
 
-PendingFile::PendingFile(const std::string& path, bool overwrite, const std::string& input) : final_(path) {
+PendingFile::PendingFile(const std::string& path, bool overwrite, const std::string& input, Appears appears)
+    : final_(path) {
   if (path == "-") return;
   if (path.empty()) throw input_error("", "the name of the output is empty", "give a file name");
   std::error_code error;
@@ -52,6 +53,7 @@ PendingFile::PendingFile(const std::string& path, bool overwrite, const std::str
   const fs::path target(final_);
   const fs::path folder = target.has_parent_path() ? target.parent_path() : fs::path(".");
   check_folder(path, folder);
+  if (appears == Appears::AtOnce) return;
   std::string name(".");
   name.append(target.filename().string()).append(".").append(std::to_string(::getpid())).append(".part");
   temporary_ = (folder / name).string();

@@ -7,14 +7,19 @@
 
 namespace rinkaku::files {
 
+/// When a file bears its name: once it is whole, or, for recordings that are worth having even cut short, from the
+/// start.
+enum class Appears { WhenWhole, AtOnce };
+
 /// A file that is written under a hidden temporary name beside its final one and gets that when it is whole.
 /// Removed if it never becomes whole. Standard output ("-"), devices and pipes are written directly.
 class PendingFile {
  public:
   /// Creates nothing yet. Throws Error (Input) if `path` can't be an output: exists already and not `overwrite`, is a
   /// folder, lies in a folder that doesn't exist or can't be written, or is the very file `input` (empty: no such
-  /// check).
-  PendingFile(const std::string& path, bool overwrite, const std::string& input = {});
+  /// check). One that appears at once isn't removed either.
+  PendingFile(const std::string& path, bool overwrite, const std::string& input = {},
+              Appears appears = Appears::WhenWhole);
   ~PendingFile();
   PendingFile(const PendingFile&) = delete;
   PendingFile& operator=(const PendingFile&) = delete;

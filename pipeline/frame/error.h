@@ -35,4 +35,7 @@ inline Error runtime_failure(std::string_view where, std::string_view what, std:
   return {Error::Kind::Runtime, where, what, remedy};
 }
 
+/// How a message shows a text of a file: control characters as '?', cut after 60 bytes.
+std::string quotable(std::string_view text);
+
 }  // namespace rinkaku

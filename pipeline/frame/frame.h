@@ -26,6 +26,10 @@ struct Frame {
   std::int64_t pts = 0;       ///< presentation time in units of time_base
   std::int64_t duration = 0;  ///< in units of time_base, 0 if unknown
   Rational time_base{1, 1};
+  /// When a camera took it, in nanoseconds of the system's monotonic clock; 0 for recordings.
+  std::int64_t captured_ns = 0;
+  /// The frame before once more, because what is drawn on it changed while it was looked at.
+  bool repeated = false;
   bool key = false;  ///< a key frame in the source
   bool interlaced = false;
   bool top_field_first = false;

@@ -28,7 +28,7 @@ int rounded(int px) { return (px + 127) / 128 * 128; }
 
 }  // namespace
 
-Target::Target() : framebuffer_(create_framebuffer()) { ++counters().targets; }
+Target::Target(Kind kind) : kind_(kind), framebuffer_(create_framebuffer()) { ++counters().targets; }
 
 void Target::begin(int width_px, int height_px) {
   if (width_px > width_px_ || height_px > height_px_) {
@@ -40,12 +40,16 @@ void Target::begin(int width_px, int height_px) {
     }
     width_px_ = std::min(most, std::max(width_px_, rounded(width_px)));
     height_px_ = std::min(most, std::max(height_px_, rounded(height_px)));
-    colour_ = storage(GL_RGBA8, width_px_, height_px_);
-    depth_ = storage(GL_DEPTH_COMPONENT32F, width_px_, height_px_);
+    colour_ = storage(kind_ == Kind::Picture ? GL_RGBA8 : GL_R8, width_px_, height_px_);
     glNamedFramebufferRenderbuffer(framebuffer_.name(), GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, colour_.name());
-    glNamedFramebufferRenderbuffer(framebuffer_.name(), GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, depth_.name());
+    if (kind_ == Kind::Picture) {
+      depth_ = storage(GL_DEPTH_COMPONENT32F, width_px_, height_px_);
+      glNamedFramebufferRenderbuffer(framebuffer_.name(), GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, depth_.name());
+    }
     if (glCheckNamedFramebufferStatus(framebuffer_.name(), GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE) {
-      throw runtime_failure("OpenGL", "the driver can't draw into RGBA8 with 32-bit float depth");
+      throw runtime_failure("OpenGL", kind_ == Kind::Picture
+                                          ? "the driver can't draw into RGBA8 with 32-bit float depth"
+                                          : "the driver can't draw into an 8-bit channel");
     }
   }
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.name());
@@ -56,10 +60,10 @@ void Target::begin(int width_px, int height_px) {
   glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
 }
 
-void Target::read(int width_px, int height_px, std::uint8_t* rgba) const {
+void Target::read(int width_px, int height_px, std::uint8_t* pixels) const {
   glBindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer_.name());
   glPixelStorei(GL_PACK_ALIGNMENT, 1);
-  glReadPixels(0, 0, width_px, height_px, GL_RGBA, GL_UNSIGNED_BYTE, rgba);
+  glReadPixels(0, 0, width_px, height_px, kind_ == Kind::Picture ? GL_RGBA : GL_RED, GL_UNSIGNED_BYTE, pixels);
 }
 
 }  // namespace rinkaku::gl

@@ -6,20 +6,26 @@
 
 namespace rinkaku::gl {
 
-/// What is drawn into: RGBA8 colour (premultiplied) and 32-bit float depth. Grows to the largest size asked for.
+/// What is drawn into, one sample a pixel. Grows to the largest size asked for. Needs a current GL context.
 class Target {
  public:
-  Target();
+  enum class Kind {
+    Picture,  ///< RGBA8 colour (premultiplied) and 32-bit float depth
+    Matte,    ///< one 8-bit channel, no depth
+  };
+  explicit Target(Kind kind = Kind::Picture);
 
   /// Binds the target with a viewport of width x height at its origin, cleared to nothing: colour 0, depth 0 (depth is
-  /// reversed: 1 at the near plane, 0 infinitely far).
+  /// reversed: 1 at the near plane, 0 infinitely far). Throws Error (Runtime) if the driver does not draw pictures of
+  /// this size.
   void begin(int width_px, int height_px);
 
-  /// Copies the viewport's pixels to `rgba`: width * height * 4 bytes, the row of window y = 0 first. Waits for drawing
-  /// to end.
-  void read(int width_px, int height_px, std::uint8_t* rgba) const;
+  /// Copies the viewport's pixels to `pixels`: width * height times 4 bytes (Picture) or 1 (Matte), the row of window
+  /// y = 0 first. Waits for drawing to end.
+  void read(int width_px, int height_px, std::uint8_t* pixels) const;
 
  private:
+  Kind kind_;
   FramebufferHandle framebuffer_;
   RenderbufferHandle colour_;
   RenderbufferHandle depth_;

@@ -69,13 +69,10 @@ void ContourStrips::collect_pieces(const mesh::Contour& contour, std::span<const
     const bool hidden = e.always_hidden || (e.opposite0 != mesh::kNone &&
                                             is_hollow(vertices[e.a0].position, vertices[e.b0].position,
                                                       vertices[e.opposite0].position, vertices[e.opposite1].position));
-    if (hidden) {
-      hidden_pieces_.push_back({e.part0, e.a0, e.b0, false});
-      continue;
-    }
     const bool first = contour.front[e.face0] != 0 || contour.front[e.face1] == 0;
     const bool from_behind = contour.front[first ? e.face0 : e.face1] == 0;
-    pieces_.push_back(first ? Piece{e.part0, e.a0, e.b0, from_behind} : Piece{e.part1, e.b1, e.a1, from_behind});
+    (hidden ? hidden_pieces_ : pieces_)
+        .push_back(first ? Piece{e.part0, e.a0, e.b0, from_behind} : Piece{e.part1, e.b1, e.a1, from_behind});
   }
   if (parts_ > 1) {
     std::stable_sort(pieces_.begin(), pieces_.end(), [](const Piece& a, const Piece& b) { return a.part < b.part; });

@@ -60,7 +60,6 @@ void DrawnObject::upload() {
   front_buffer_.write(std::as_bytes(look.front));
   strip_buffer_.write(std::as_bytes(look.strip_vertices));
   strip_index_buffer_.write(std::as_bytes(look.strip_indices));
-  glVertexArrayElementBuffer(mesh_array_.name(), front_buffer_.name());
   glVertexArrayElementBuffer(contour_array_.name(), strip_index_buffer_.name());
   glVertexArrayVertexBuffer(contour_array_.name(), 0, strip_buffer_.name(), 0, sizeof(ShapeVertex));
   if (!look.border_indices.empty()) {
@@ -82,9 +81,24 @@ void DrawnObject::upload() {
 }
 
 std::span<const Run> DrawnObject::bind_front() {
-  glFrontFace(shape_.mirrored() ? GL_CCW : GL_CW);  // window rows run downwards (see clip_from_camera)
-  glBindVertexArray(mesh_array_.name());
+  if (shape_.last_look().cull_back_faces) {
+    glEnable(GL_CULL_FACE);
+  } else {
+    glDisable(GL_CULL_FACE);
+  }
+  bind_triangles(front_buffer_.name());
   return shape_.last_look().front_runs;
+}
+
+void DrawnObject::bind_whole(const gl::StaticBuffer& triangles) {
+  glDisable(GL_CULL_FACE);
+  bind_triangles(triangles.name());
+}
+
+void DrawnObject::bind_triangles(GLuint buffer) {
+  glFrontFace(shape_.mirrored() ? GL_CCW : GL_CW);  // window rows run downwards (see clip_from_camera)
+  glVertexArrayElementBuffer(mesh_array_.name(), buffer);
+  glBindVertexArray(mesh_array_.name());
 }
 
 std::span<const Run> DrawnObject::bind_contour() {

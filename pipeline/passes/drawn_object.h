@@ -22,6 +22,8 @@ class DrawnObject {
   void upload();
   /// Binds vertices and the front-facing triangles; draw the runs with draw_run().
   std::span<const Run> bind_front();
+  /// Binds vertices and, instead of the front-facing ones, the triangles of a buffer: three vertices of the mesh each.
+  void bind_whole(const gl::StaticBuffer& triangles);
   /// Binds the contour's quads (see ContourStrips); draw them likewise.
   std::span<const Run> bind_contour();
   /// Has looks find lines from now on (see ObjectShape::ask_for_lines).
@@ -37,6 +39,7 @@ class DrawnObject {
   void upload_movement();
   static gl::VertexArrayHandle make_vertex_array();
   static gl::VertexArrayHandle make_border_array();
+  void bind_triangles(GLuint buffer);
 
   ObjectShape shape_;
   gl::StaticBuffer vertex_buffer_;

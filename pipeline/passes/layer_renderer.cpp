@@ -20,7 +20,7 @@ LayerRenderer::LayerRenderer(std::vector<StyledObject> objects, const PixelRect&
 DrawCall LayerRenderer::call_for(const View& view, const StyledObject& styled, const PixelRect& rect) const {
   const glm::dmat4& world_from_object = styled.object->shape().world_from_object();
   const glm::dmat4 camera_from_object = to_matrix(view.camera_from_world) * world_from_object;
-  return {view, glm::mat4(clip_from_camera(view.camera, rect) * camera_from_object),
+  return {view, glm::mat4(clip_from_camera(view.camera, rect) * camera_from_object), rect,
           glm::vec2(rect.width_px, rect.height_px),
           static_cast<float>(view.camera.fx_px * styled.object->shape().push_m())};
 }
@@ -50,13 +50,13 @@ bool LayerRenderer::draw(const View& view, Layer& layer) {
   glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
   glEnable(GL_DEPTH_TEST);
   glDepthFunc(GL_GEQUAL);
-  glDisable(GL_CULL_FACE);  // the lists hold what is to be seen
   glDisable(GL_BLEND);
   for (Visible& v : visible_) {
     v.styled->object->upload();
     const DrawCall call = call_for(view, *v.styled, layer.rect);
     for (auto& pass : v.styled->passes) pass->draw_surface(call);
   }
+  glDisable(GL_CULL_FACE);
   glEnable(GL_BLEND);
   glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
   glDepthMask(GL_FALSE);

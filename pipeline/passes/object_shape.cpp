@@ -161,7 +161,8 @@ const Look& ObjectShape::look(const View& view, const PixelRect& picture) {
   const glm::dvec3 eye = glm::dvec3(object_from_world_ * glm::dvec4(world_from_camera.translation_m, 1.0));
   mesh::ContourFinder* const level = finder_for(view);
   const bool whole = level == nullptr;
-  const mesh::Contour& contour = whole_->find(eye, {.front = whole, .edges = true});
+  const mesh::KnownFaces* const known = known_.faces ? known_.faces(eye) : nullptr;
+  const mesh::Contour& contour = whole_->find(eye, {.front = whole, .edges = true}, known);
   if (whole) {
     list_front(contour, false);
   } else {
@@ -169,7 +170,12 @@ const Look& ObjectShape::look(const View& view, const PixelRect& picture) {
     // The level's error is of the kind of a mean, so allow for more.
     look_.overlap_px = 1.5f;
   }
+  if (known_.cover) take_cover(eye);
   strips_->collect(contour, vertices_);
+  look_.to_pixels = to_pixels;
+  look_.contour_pieces = strips_->pieces();
+  look_.hidden_contour_pieces = strips_->hidden_pieces();
+  look_.front_faces = contour.front;
   look_.strip_vertices = strips_->vertices();
   look_.strip_indices = strips_->indices();
   look_.strip_runs = strips_->runs();
@@ -231,6 +237,17 @@ void ObjectShape::list_front(const mesh::Contour& found, bool split) {
     front_runs_.push_back({split ? p / 2 : p, range.first, range.count, split && p % 2 == 1});
   }
   look_.front_runs = front_runs_;
+}
+
+// What covers the same pixels, where it is less than what was found.
+void ObjectShape::take_cover(const glm::dvec3& eye) {
+  const std::span<const std::uint32_t> cover = known_.cover(eye);
+  if (cover.empty() || cover.size() >= look_.front.size()) return;
+  look_.front = cover;
+  front_runs_.assign(1, {0, 0, static_cast<std::uint32_t>(cover.size()), false});
+  look_.front_runs = front_runs_;
+  look_.cull_back_faces = true;
+  look_.overlap_px = 0;
 }
 
 void ObjectShape::find_bounds(const glm::mat4& to_pixels, const PixelRect& picture) {

@@ -1,8 +1,10 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include <glm/mat3x3.hpp>
@@ -22,6 +24,16 @@
 
 namespace rinkaku::passes {
 
+/// What is known of an object for all eyes of a part of space (see silhouette/): asked each frame, for the eye in the
+/// object's coordinates. Either may be missing, and both may know nothing of an eye.
+struct RegionKnowledge {
+  /// Which faces it sees from the front; null: unknown.
+  std::function<const mesh::KnownFaces*(const glm::dvec3& eye)> faces;
+  /// Vertex indices of triangles that cover the same pixels as the whole mesh, to be drawn with back faces culled;
+  /// empty: unknown. Only for objects whose inside doesn't show: of one flat colour, or holdouts.
+  std::function<std::span<const std::uint32_t>(const glm::dvec3& eye)> cover;
+};
+
 /// What one frame's eye sees of an object. The spans live until the next look.
 struct Look {
   bool visible = false;
@@ -34,12 +46,17 @@ struct Look {
   float overlap_px = 0;
   std::span<const std::uint32_t> front;  ///< vertex indices of the triangles to draw: those that face the eye
   std::span<const Run> front_runs;
+  bool cull_back_faces = false;                 ///< some of `front` may turn their back on the eye
   std::span<const ShapeVertex> strip_vertices;  ///< the contour's quads, see ContourStrips
   std::span<const std::uint32_t> strip_indices;
   std::span<const Run> strip_runs;
   std::span<const LineVertex> line_vertices;  ///< see LineStrips; none if no pass asked for lines
   std::span<const std::uint32_t> line_indices;
-  float line_push = 1;                            ///< the farthest that a line reaches, in widths
+  std::span<const ContourStrips::Piece> contour_pieces;         ///< the contour's edges, as vertices of the mesh
+  std::span<const ContourStrips::Piece> hidden_contour_pieces;  ///< where it is never seen, see ContourStrips
+  std::span<const std::uint8_t> front_faces;                    ///< per triangle of the mesh: 1 if it faces the eye
+  glm::mat4 to_pixels{1};  ///< takes a position to (x Z, y Z, Z, Z), x and y in pixels of the pinhole picture
+  float line_push = 1;     ///< the farthest that a line reaches, in widths
   std::span<const std::uint32_t> border_indices;  ///< of border_vertices(), see BorderStrips
   std::span<const Run> border_runs;
   std::span<const BorderVertex> intersection_vertices;  ///< see IntersectionStrips
@@ -71,6 +88,8 @@ class ObjectShape {
 
   /// From now on looks find lines along the contour.
   void ask_for_lines(const LineStyle& style);
+  /// From now on looks ask this first.
+  void use_regions(RegionKnowledge known) { known_ = std::move(known); }
   float largest_line_factor() const { return lines_->largest_factor(); }
 
   std::span<const ShapeVertex> vertices() const { return vertices_; }
@@ -95,6 +114,7 @@ class ObjectShape {
   mesh::ContourFinder* finder_for(const View& view);
   mesh::ContourFinder* level_finder(std::size_t level);
   void list_front(const mesh::Contour& found, bool split);
+  void take_cover(const glm::dvec3& eye);
   void collect_vertices(const mesh::Mesh& mesh, const mesh::Topology& topology);
 
   glm::dmat4 world_from_object_;
@@ -129,6 +149,7 @@ class ObjectShape {
   std::uint64_t moves_made_ = 0;
   bool evenly_scaled_ = false;
 
+  RegionKnowledge known_;
   std::vector<Run> front_runs_;
   Look look_;
 };

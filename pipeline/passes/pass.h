@@ -12,6 +12,7 @@ namespace rinkaku::passes {
 struct DrawCall {
   const View& view;
   glm::mat4 clip_from_object;  ///< composed in double, rounded once
+  PixelRect rect;              ///< what is drawn of the pinhole picture; it fills the viewport
   glm::vec2 viewport_px;
   float focal_px = 0;  ///< pixels that an outline normal of length 1 takes at a distance of 1 m
 };

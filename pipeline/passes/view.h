@@ -24,6 +24,6 @@ struct View {
 glm::dmat4 clip_from_camera(const CameraModel& camera, const PixelRect& rect);
 
 /// Nearer than this nothing is drawn.
-inline constexpr double near_m = 1e-3;
+inline constexpr double near_m = 1e-5;
 
 }  // namespace rinkaku::passes

@@ -30,15 +30,35 @@ glm::dvec3 read_scale(const Table& object) {
   return scale;
 }
 
+/// What is made of a mesh at rest can't go with it when it moves.
+void refuse_for_animated(const Table& object, const ObjectScene& scene) {
+  if (!scene.animation) return;
+  for (const std::string_view key : {"regions", "fluffy"}) {
+    if (object.has(key)) {
+      throw object.error_at(key, "needs a mesh that stands still, but the object has 'animation'",
+                            "leave one of them out");
+    }
+  }
+  if (!scene.outline) return;
+  const LineMethod method = scene.outline->method;
+  const bool follows =
+      method == LineMethod::Uniform || method == LineMethod::Curvature || method == LineMethod::Control;
+  if (!follows || scene.outline->style.inner) {
+    throw object.error_at("outline", "has lines that need a mesh that stands still, but the object has 'animation'",
+                          "take the method \"uniform\", \"curvature\" or \"control\", without inner lines");
+  }
+}
+
 }  // namespace
 
 toml::Schema object_schema() {
-  toml::Schema schema = {{.path = "object",
-                          .keys = {"mesh", "name", "position_m", "rotation_deg", "height_m", "scale", "up", "anchor",
-                                   "crease_deg", "colour", "animation", "toon", "outline", "holdout"},
-                          .repeated = true}};
+  toml::Schema schema = {
+      {.path = "object",
+       .keys = {"mesh", "name", "position_m", "rotation_deg", "height_m", "scale", "up", "anchor", "crease_deg",
+                "colour", "animation", "toon", "outline", "fluffy", "holdout", "regions"},
+       .repeated = true}};
   // What an object is drawn with; a new pass adds its line here.
-  for (const toml::Schema& pass : {animation_schema(), toon_schema(), outline_schema()}) {
+  for (const toml::Schema& pass : {animation_schema(), toon_schema(), outline_schema(), fluffy_schema()}) {
     schema.insert(schema.end(), pass.begin(), pass.end());
   }
   return schema;
@@ -63,10 +83,12 @@ ObjectScene read_object(const Table& object) {
   scene.anchor = anchor == "base" ? ObjectScene::Anchor::Base : ObjectScene::Anchor::Origin;
   scene.crease_deg = object.number("crease_deg", {0, 180}).value_or(scene.crease_deg);
   scene.colour = read_colour(object, "colour");
+  scene.regions = read_regions(object);
   scene.animation = read_animation(object);
   scene.holdout = object.flag("holdout").value_or(false);
+  refuse_for_animated(object, scene);
   if (scene.holdout) {
-    for (const std::string_view key : {"colour", "toon", "outline"}) {
+    for (const std::string_view key : {"colour", "toon", "outline", "fluffy"}) {
       if (object.has(key))
         throw object.error_at(key, "has no meaning for a holdout, which is not drawn", "leave it out");
     }
@@ -74,6 +96,8 @@ ObjectScene read_object(const Table& object) {
   }
   scene.toon = read_toon(object);
   scene.outline = read_outline(object);
+  scene.fluffy = read_fluffy(object, scene.outline.has_value());
+  refuse_for_animated(object, scene);
   return scene;
 }
 

@@ -8,7 +8,9 @@
 #include <glm/vec3.hpp>
 
 #include "pipeline/scene/animation.h"
+#include "pipeline/scene/fluffy.h"
 #include "pipeline/scene/outline.h"
+#include "pipeline/scene/regions.h"
 #include "pipeline/scene/toon.h"
 #include "pipeline/toml/table.h"
 
@@ -31,8 +33,10 @@ struct ObjectScene {
   std::optional<AnimationScene> animation;
   std::optional<ToonScene> toon;  ///< empty: flat colour, unlit
   std::optional<OutlineScene> outline;
+  std::optional<FluffyScene> fluffy;
   /// The model of a filmed thing: not drawn, but CG behind it is hidden.
   bool holdout = false;
+  std::optional<RegionsScene> regions;
 };
 
 /// With the schemas of the object's own tables.

@@ -1,7 +1,9 @@
 #include "pipeline/scene/outline.h"
 
 #include <algorithm>
+#include <string>
 #include <string_view>
+#include <utility>
 
 #include "pipeline/scene/values.h"
 
@@ -10,6 +12,20 @@ namespace {
 
 using toml::Limits;
 using toml::Table;
+
+void read_method(const Table& outline, OutlineScene& scene) {
+  const auto word = outline.text("method");
+  if (!word) return;
+  std::string expected;
+  for (const NamedMethod& named : line_methods()) {
+    if (*word == named.word) {
+      scene.method = named.method;
+      return;
+    }
+    expected += (expected.empty() ? "\"" : ", \"") + std::string(named.word) + "\"";
+  }
+  throw outline.wrong("method", "one of " + expected);
+}
 
 void read_width(const Table& outline, OutlineScene& scene) {
   outline.exclude("width_px", "width_m");
@@ -27,18 +43,13 @@ void read_width(const Table& outline, OutlineScene& scene) {
 
 void read_curvature_width(const Table& outline, OutlineScene& scene) {
   using O = OutlineScene;
-  scene.method =
-      read_choice<O::Method>(
-          outline, "method",
-          {{"uniform", O::Method::Uniform}, {"curvature", O::Method::Curvature}, {"control", O::Method::Control}})
-          .value_or(scene.method);
   for (const std::string_view key : {"curvature", "sign", "saturation", "curve", "min_factor"}) {
     if (outline.has(key) && scene.method != O::Method::Curvature) {
       throw outline.error_at(key, "goes with method = \"curvature\"", "add that, or leave it out");
     }
   }
   for (const std::string_view key : {"exaggeration", "smoothing"}) {
-    if (outline.has(key) && scene.method == O::Method::Uniform) {
+    if (outline.has(key) && scene.method != O::Method::Curvature && scene.method != O::Method::Control) {
       throw outline.error_at(key, "goes with method = \"curvature\" or \"control\"", "add that, or leave it out");
     }
   }
@@ -56,7 +67,6 @@ void read_curvature_width(const Table& outline, OutlineScene& scene) {
                    outline, "sign",
                    {{"magnitude", O::Sign::Magnitude}, {"convex", O::Sign::Convex}, {"concave", O::Sign::Concave}})
                    .value_or(scene.sign);
-  if (scene.method != O::Method::Uniform) scene.taper_px = 15;
   scene.exaggeration = outline.number("exaggeration", {0, 20}).value_or(scene.exaggeration);
   scene.saturation = outline.number("saturation", Limits::above(0, 1000)).value_or(scene.saturation);
   scene.curve = outline.number("curve", Limits::above(0, 10)).value_or(scene.curve);
@@ -67,21 +77,24 @@ void read_curvature_width(const Table& outline, OutlineScene& scene) {
 }  // namespace
 
 toml::Schema outline_schema() {
-  toml::Schema schema = {
-      {.path = "object.outline",
-       .keys = {"width_px", "width_m", "min_px", "max_px", "taper_px", "colour", "method", "curvature", "sign",
-                "exaggeration", "saturation", "curve", "min_factor", "smoothing", "control"}}};
-  const toml::Schema control = control_schema();
-  schema.insert(schema.end(), control.begin(), control.end());
+  toml::Section outline{.path = "object.outline",
+                        .keys = {"width_px", "width_m", "min_px", "max_px", "taper_px", "colour", "method", "curvature",
+                                 "sign", "exaggeration", "saturation", "curve", "min_factor", "smoothing", "control"}};
+  for (const std::string_view key : line_style_keys()) outline.keys.push_back(key);
+  toml::Schema schema{std::move(outline)};
+  for (toml::Section& section : line_style_schema()) schema.push_back(std::move(section));
+  for (toml::Section& section : control_schema()) schema.push_back(std::move(section));
   return schema;
 }
 
 std::optional<OutlineScene> read_outline(const Table& object) {
   OutlineScene scene;
   if (const auto outline = object.table_unless_flag("outline")) {
+    read_method(*outline, scene);
     read_width(*outline, scene);
     read_curvature_width(*outline, scene);
-    scene.taper_px = outline->number("taper_px", {0, 1000}).value_or(scene.taper_px);
+    scene.style = read_line_style(*outline, scene.method);
+    scene.taper_px = outline->number("taper_px", {0, 1000}).value_or(usual_taper_px(scene.method));
     scene.colour = read_colour(*outline, "colour").value_or(scene.colour);
   } else if (!object.has("outline") || !*object.flag("outline")) {
     return std::nullopt;

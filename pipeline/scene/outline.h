@@ -5,6 +5,7 @@
 
 #include "outline/width_options.h"
 #include "pipeline/scene/control.h"
+#include "pipeline/scene/line_style.h"
 #include "pipeline/toml/table.h"
 
 namespace rinkaku::pipeline {
@@ -15,9 +16,11 @@ struct OutlineScene {
   std::optional<double> width_m;  ///< in place of width_px
   double min_px = 0;              ///< for width_m
   double max_px = 40;
-  double taper_px = 0;  ///< 0: lines end blunt; by default 15 with the methods Curvature and Control
+  double taper_px = 0;                             ///< 0: lines end blunt; see usual_taper_px()
   std::array<double, 3> colour{0.07, 0.05, 0.09};  ///< sRGB
-  enum class Method { Uniform, Curvature, Control } method = Method::Uniform;
+  using Method = LineMethod;
+  Method method = Method::Uniform;
+  LineStyleScene style;  ///< what some methods have besides
   // For the method Curvature; see outline/width_options.h.
   using Curvature = outline::CurvatureKind;
   using Sign = outline::CurvatureSign;

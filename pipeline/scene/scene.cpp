@@ -23,10 +23,10 @@ Scene read(const toml::Document& document, const SceneOptions& options) {
   Scene scene;
   scene.file = fs::absolute(document.file()).lexically_normal();
   if (document.empty()) {
-    throw input_error(file, "the scene is empty", "it needs at least [plate] with 'video' or 'images'");
+    throw input_error(file, "the scene is empty", "it needs at least [plate] with 'video', 'images' or 'device'");
   }
-  if (!root.has("plate")) throw input_error(file, "[plate] is missing", "add it, with 'video' or 'images'");
-  scene.plate = read_plate(*root.table("plate"), options.input);
+  if (!root.has("plate")) throw input_error(file, "[plate] is missing", "add it, with 'video', 'images' or 'device'");
+  scene.plate = read_plate(*root.table("plate"), {options.input, options.device});
   if (const auto track = root.table("track")) scene.track = read_track(*track);
   if (const auto light = root.table("light")) scene.light = read_light(*light);
   for (const toml::Table& object : root.tables("object")) {
@@ -51,6 +51,10 @@ Scene read(const toml::Document& document, const SceneOptions& options) {
 }  // namespace
 
 Scene read_scene(const fs::path& file, const SceneOptions& options) {
+  if (options.text) {
+    const toml::Document document(file, scene_schema(), *options.text);
+    return read(document, options);
+  }
   const toml::Document document(file, scene_schema());
   return read(document, options);
 }

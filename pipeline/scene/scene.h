@@ -27,7 +27,9 @@ struct Scene {
 
 /// What the call puts in the scene file's place.
 struct SceneOptions {
-  std::string input;  ///< a video or image pattern instead of the plate's own, which then needn't exist; not checked
+  std::string input{};   ///< a video or image pattern instead of the plate's own, which then needn't exist; not checked
+  std::string device{};  ///< a camera instead of the plate's own
+  std::optional<std::string> text{};  ///< the scene as it shall be read, in place of what the file holds
 };
 
 /// Reads and validates a scene file (TOML). Throws Error (Input) naming file, line and column: unknown keys with the

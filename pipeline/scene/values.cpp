@@ -1,7 +1,9 @@
 #include "pipeline/scene/values.h"
 
+#include <cmath>
 #include <cstdint>
 #include <fstream>
+#include <numeric>
 #include <variant>
 
 #include <glm/vec3.hpp>
@@ -32,6 +34,16 @@ std::string image_pattern(const Table& table, std::string_view key, std::string_
     throw table.wrong(key, std::string("a pattern of image files such as \"") + example + "\"");
   }
   return toml::resolved(text, table.file()).string();
+}
+
+Rational read_fps(const Table& table) {
+  const double fps = *table.number("fps", {0.001, 1000});
+  // 23.976 (or 23.98), 29.97 and their like stand for 24 and 30 times 1000/1001.
+  const std::int64_t whole = std::llround(fps);
+  const bool ntsc = whole > 0 && (whole % 12 == 0 || whole % 15 == 0);
+  if (ntsc && std::abs(fps - static_cast<double>(whole) * 1000 / 1001) < 0.005) return {whole * 1000, 1001};
+  const std::int64_t millionths = std::llround(fps * 1e6), divisor = std::gcd(millionths, std::int64_t{1'000'000});
+  return {millionths / divisor, 1'000'000 / divisor};
 }
 
 std::optional<std::array<double, 3>> read_colour(const Table& table, std::string_view key) {

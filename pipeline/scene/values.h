@@ -8,6 +8,7 @@
 #include <string_view>
 #include <utility>
 
+#include "pipeline/frame/picture_format.h"
 #include "pipeline/toml/table.h"
 
 namespace rinkaku::pipeline {
@@ -22,6 +23,9 @@ std::filesystem::path existing_file(const toml::Table& table, std::string_view k
 
 /// A pattern of image files, made absolute: it must hold one of `signs`. `example` is for the message.
 std::string image_pattern(const toml::Table& table, std::string_view key, std::string_view signs, const char* example);
+
+/// Frames a second; 23.976, 29.97 and their like stand for multiples of 1000/1001. The key must be there.
+Rational read_fps(const toml::Table& table);
 
 /// An sRGB colour, "#rrggbb" or three numbers from 0 to 1; empty if the key is absent.
 std::optional<std::array<double, 3>> read_colour(const toml::Table& table, std::string_view key);

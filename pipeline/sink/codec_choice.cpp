@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <filesystem>
 #include <string_view>
 #include <thread>
@@ -119,6 +120,23 @@ void set_quality(AVCodecContext& encoder, std::int64_t bit_rate) {
   if (descriptor && !(descriptor->props & AV_CODEC_PROP_LOSSLESS)) {
     encoder.flags |= AV_CODEC_FLAG_QSCALE;
     encoder.global_quality = 3 * FF_QP2LAMBDA;
+  }
+}
+
+void set_for_recording(AVCodecContext& encoder) {
+  encoder.max_b_frames = 0;
+  if (encoder.framerate.num > 0) {
+    encoder.gop_size = std::max(1, static_cast<int>(std::lround(av_q2d(encoder.framerate))));
+  }
+  // Threads that share frames, not slices, hold as many back.
+  if (encoder.codec->capabilities & AV_CODEC_CAP_SLICE_THREADS) encoder.thread_type = FF_THREAD_SLICE;
+  const std::string_view name = encoder.codec->name;
+  if (name == "libx264" || name == "libx265") {
+    av_opt_set(encoder.priv_data, "preset", "veryfast", 0);
+    av_opt_set(encoder.priv_data, "tune", "zerolatency", 0);
+  } else if (name == "libvpx-vp9") {
+    av_opt_set(encoder.priv_data, "deadline", "realtime", 0);
+    av_opt_set(encoder.priv_data, "lag-in-frames", "0", 0);
   }
 }
 

@@ -23,4 +23,8 @@ const AVCodec* image_encoder(const std::string& path);
 /// if given. FFV1: version 3 with slices, so that threads can share a picture.
 void set_quality(AVCodecContext& encoder, std::int64_t bit_rate);
 
+/// Lets an encoder keep pace with a camera, holding no frame back: libx264 fast and without looking ahead, a key frame
+/// each second. To be called after set_quality() and with the frame rate set.
+void set_for_recording(AVCodecContext& encoder);
+
 }  // namespace rinkaku::sink

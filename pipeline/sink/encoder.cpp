@@ -50,6 +50,7 @@ Encoder::Encoder(const AVCodec& codec, const AVOutputFormat* container, const Op
   c.thread_count = options.threads;
   c.strict_std_compliance = FF_COMPLIANCE_UNOFFICIAL;
   set_quality(c, options.bit_rate);
+  if (options.recording) set_for_recording(c);
   if (container && container->flags & AVFMT_GLOBALHEADER) c.flags |= AV_CODEC_FLAG_GLOBAL_HEADER;
   // AVI has no presentation times, so pictures must come in their order.
   if (container && std::string_view(container->name) == "avi") c.max_b_frames = 0;

@@ -31,6 +31,9 @@ struct Options {
       0;            ///< bits/s; 0: a constant quality that looks lossless (libx264: crf 18, mpeg4: quantiser 3)
   int threads = 0;  ///< encoder threads, 0 for as many as there are cores
   bool overwrite = false;
+  /// Made as it happens: the file bears its name from the start and can be played up to the last second whenever it is
+  /// cut off (MP4 and MOV in fragments, Matroska in short clusters), and the encoder holds no frames back.
+  bool recording = false;
 };
 
 /// Where finished frames go. Used from one thread at a time.

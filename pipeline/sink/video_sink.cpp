@@ -17,6 +17,8 @@ extern "C" {
 namespace rinkaku::sink {
 namespace {
 
+constexpr std::int64_t piece_us = 250'000;  // of a recording
+
 bool is_named(const AVOutputFormat& container, std::initializer_list<std::string_view> names) {
   for (const std::string_view name : names) {
     if (name == container.name) return true;
@@ -42,7 +44,8 @@ VideoSink::VideoSink(const Options& options, const Incoming& incoming)
       incoming_(incoming),
       choice_(choose_video_codec(options)),
       avi_(is_named(*choice_.container, {"avi"})),
-      file_(options.path, options.overwrite, incoming.copy_streams_from),
+      file_(options.path, options.overwrite, incoming.copy_streams_from,
+            options.recording ? files::Appears::AtOnce : files::Appears::WhenWhole),
       packet_(av_packet_alloc()) {
   check_rates();
   encoder_ = std::make_unique<Encoder>(*choice_.encoder, choice_.container, options_, incoming_);
@@ -53,6 +56,7 @@ VideoSink::VideoSink(const Options& options, const Incoming& incoming)
   muxer_.reset(context);
   listener_ = std::make_unique<ffmpeg::LogListener>(context);
   context->strict_std_compliance = FF_COMPLIANCE_UNOFFICIAL;
+  if (options_.recording) write_in_small_pieces();
   add_video_stream();
   // Where MP4 and MOV start is counted in this unit, usually 1/1000 s; other muxers have no such option.
   if (unit_.num == 1 && unit_.den > 1000) av_opt_set_int(context->priv_data, "movie_timescale", unit_.den, 0);
@@ -72,6 +76,18 @@ VideoSink::VideoSink(const Options& options, const Incoming& incoming)
   }
   if (const int code = avio_open(&context->pb, output_url(file_).c_str(), AVIO_FLAG_WRITE); code < 0) {
     throw_write_error(options_.path, code, true);
+  }
+}
+
+// Each piece can be decoded without what follows, and none waits in memory.
+void VideoSink::write_in_small_pieces() {
+  AVFormatContext& muxer = *muxer_;
+  muxer.flags |= AVFMT_FLAG_FLUSH_PACKETS;
+  if (is_named(*choice_.container, {"mp4", "mov", "ipod", "3gp", "3g2", "psp"})) {
+    av_opt_set(muxer.priv_data, "movflags", "empty_moov+default_base_moof", 0);
+    av_opt_set_int(muxer.priv_data, "frag_duration", piece_us, 0);
+  } else if (is_named(*choice_.container, {"matroska", "webm"})) {
+    av_opt_set_int(muxer.priv_data, "cluster_time_limit", piece_us / 1000, 0);
   }
 }
 

@@ -23,6 +23,7 @@ class VideoSink final : public Sink {
   std::string notice() const override { return notice_; }
 
  private:
+  void write_in_small_pieces();
   void add_video_stream();
   void add_rotation();
   void check_rates() const;

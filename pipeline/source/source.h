@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -27,7 +28,16 @@ struct Description {
   double first_time_s() const { return static_cast<double>(first_pts) * time_base.value(); }
 };
 
-/// Where filmed frames come from. Used from one thread at a time.
+/// How a camera fares, counted since it was opened.
+struct Health {
+  std::string notice{};         ///< one line while something is wrong (unplugged, silent); empty while all is well
+  std::int64_t frames = 0;      ///< delivered
+  std::int64_t missed = 0;      ///< that the camera took and nobody got: gaps in its own count
+  std::int64_t damaged = 0;     ///< that came with the driver's error mark or could not be decoded
+  std::int64_t reconnects = 0;  ///< how often it came back after it was gone
+};
+
+/// Where filmed frames come from. Used from one thread at a time, but for what says otherwise.
 class Source {
  public:
   virtual ~Source() = default;
@@ -37,6 +47,13 @@ class Source {
   /// The next frame, numbered from 0; empty at the end of the stream.
   /// Throws Error if the device or file fails altogether; damaged frames are counted, not thrown.
   virtual std::optional<Frame> next() = 0;
+
+  /// Once `stop` is true a next() that waits for a camera returns nothing within 0.1 s; files don't wait and ignore it.
+  /// `stop` must outlive the source.
+  virtual void stop_when(const std::atomic<bool>& /*stop*/) {}
+
+  /// Any thread; recordings are always well.
+  virtual Health health() const { return {}; }
 
   /// One line on what was damaged or missing so far; empty if nothing was.
   virtual std::string damage() const { return {}; }

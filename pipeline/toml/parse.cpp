@@ -12,12 +12,6 @@ namespace {
 
 constexpr std::size_t most_bytes = std::size_t{4} << 20;
 
-std::string read_text(const std::filesystem::path& file) {
-  std::string text = files::read_file(file, most_bytes);
-  if (text.find('\0') != std::string::npos) throw input_error(file.string(), "isn't a text file, so it can't be TOML");
-  return text;
-}
-
 Position position(const ::toml::source_position& at) {
   return {static_cast<int>(at.line), static_cast<int>(at.column)};
 }
@@ -49,10 +43,17 @@ Value converted(const ::toml::node& node) {
 
 }  // namespace
 
-Value parse_file(const std::filesystem::path& file) {
-  const std::string text = read_text(file);
+std::string read_text(const std::filesystem::path& file) {
+  std::string text = files::read_file(file, most_bytes);
+  if (text.find('\0') != std::string::npos) throw input_error(file.string(), "isn't a text file, so it can't be TOML");
+  return text;
+}
+
+Value parse_file(const std::filesystem::path& file) { return parse_text(read_text(file), file); }
+
+Value parse_text(std::string_view text, const std::filesystem::path& file) {
   try {
-    const ::toml::table table = ::toml::parse(std::string_view(text));
+    const ::toml::table table = ::toml::parse(text);
     return converted(table);
   } catch (const ::toml::parse_error& error) {
     const Position at = position(error.source().begin);

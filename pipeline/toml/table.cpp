@@ -196,6 +196,11 @@ Document::Document(std::filesystem::path file, Schema schema)
   check_keys(schema_, value_, file_.string());
 }
 
+Document::Document(std::filesystem::path file, Schema schema, std::string_view text)
+    : file_(std::move(file)), schema_(std::move(schema)), value_(parse_text(text, file_)) {
+  check_keys(schema_, value_, file_.string());
+}
+
 std::filesystem::path resolved(const std::filesystem::path& path, const std::filesystem::path& written_in) {
   const auto folder = std::filesystem::absolute(written_in).parent_path();
   return (folder / path).lexically_normal();

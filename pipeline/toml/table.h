@@ -87,6 +87,8 @@ class Document {
  public:
   /// Throws Error (Input) as parse_file() and check_keys() do.
   Document(std::filesystem::path file, Schema schema);
+  /// Of a text in the file's place.
+  Document(std::filesystem::path file, Schema schema, std::string_view text);
   Document(const Document&) = delete;
   Document& operator=(const Document&) = delete;
 

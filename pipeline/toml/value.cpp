@@ -3,6 +3,8 @@
 #include <charconv>
 #include <cmath>
 
+#include "pipeline/frame/error.h"
+
 namespace rinkaku::toml {
 namespace {
 
@@ -29,23 +31,6 @@ struct Describe {
 };
 
 }  // namespace
-
-std::string quotable(std::string_view text) {
-  constexpr std::size_t most_bytes = 60;
-  std::string shown(text.substr(0, most_bytes));
-  if (text.size() > most_bytes) {
-    // Never half a character: continuation bytes go, then the byte that began it.
-    const auto continues = [&](std::size_t i) { return (static_cast<unsigned char>(text[i]) & 0xc0) == 0x80; };
-    std::size_t end = most_bytes;
-    while (end > 0 && continues(end)) --end;
-    shown.resize(end);
-    shown += "...";
-  }
-  for (char& c : shown) {
-    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = '?';
-  }
-  return shown;
-}
 
 std::string described(const Value& value) { return std::visit(Describe{}, value.held); }
 

@@ -102,7 +102,7 @@ class PoseReader {
     for (const std::string_view field : split(line.text)) {
       const auto found = std::find(names.begin(), names.end(), field);
       if (found == names.end()) {
-        throw input_error(at(line.number), "unknown column \"" + std::string(field) + "\"",
+        throw input_error(at(line.number), "unknown column \"" + quotable(field) + "\"",
                           "the first line names the columns: frame,time_s,tx,ty,tz,qx,qy,qz,qw");
       }
       const auto column = static_cast<Column>(found - names.begin());
@@ -136,16 +136,16 @@ class PoseReader {
       const Column column = columns_[i];
       if (fields[i].empty() && (column == FrameNumber || column == Time)) continue;
       double& number = value[column];
-      const char* first = fields[i].data() + (fields[i].front() == '+' ? 1 : 0);
+      const char* first = fields[i].data() + (fields[i].starts_with('+') ? 1 : 0);
       const char* last = fields[i].data() + fields[i].size();
       const auto [end, problem] = std::from_chars(first, last, number);
       if (problem != std::errc() || end != last || !std::isfinite(number)) {
-        throw input_error(at(line.number), "\"" + std::string(fields[i]) + "\" in column " + column_names()[column] +
+        throw input_error(at(line.number), "\"" + quotable(fields[i]) + "\" in column " + column_names()[column] +
                                                " is not a finite number");
       }
       if (column == FrameNumber) {
         if (number < 0 || number > 9e15 || number != std::floor(number)) {
-          throw input_error(at(line.number), "\"" + std::string(fields[i]) + "\" is not a frame number",
+          throw input_error(at(line.number), "\"" + quotable(fields[i]) + "\" is not a frame number",
                             "frames are counted from 0");
         }
         pose.frame = static_cast<std::int64_t>(number);

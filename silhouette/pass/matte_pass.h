@@ -35,8 +35,8 @@ class MattePass {
   /// 0.1 ms for 20,000 triangles): call it when the list changes, not every frame.
   void set_triangles(std::span<const std::uint32_t> indices);
 
-  /// Draws the triangles into the bound MatteTarget. `clip_from_object` may scale unevenly and mirror: which way round
-  /// a front face is seen follows from it. Compose it in double; it is rounded once, here.
+  /// Draws the triangles into the bound target (gl::Target, Kind::Matte). `clip_from_object` may scale unevenly and
+  /// mirror: which way round a front face is seen follows from it. Compose it in double; it is rounded once, here.
   void draw(const glm::dmat4& clip_from_object);
 
  private:

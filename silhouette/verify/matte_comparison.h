@@ -4,8 +4,8 @@
 #include <span>
 #include <vector>
 
+#include "pipeline/gl/target.h"
 #include "silhouette/pass/matte_pass.h"
-#include "silhouette/pass/matte_target.h"
 #include "silhouette/surface.h"
 #include "silhouette/verify/check_views.h"
 #include "silhouette/verify/draw_clock.h"
@@ -39,7 +39,7 @@ class MatteComparison {
  private:
   std::vector<std::uint32_t> full_;
   MattePass pass_;
-  MatteTarget target_;
+  gl::Target target_{gl::Target::Kind::Matte};
   std::vector<std::uint8_t> full_matte_, other_matte_;
 };
 

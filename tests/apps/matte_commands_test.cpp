@@ -6,20 +6,20 @@ namespace {
 
 using test::contains;
 
-// A ball of 16 x 12 quads around the origin, radius 1.
-std::string ball() {
+// A ball of 16 x 12 quads around the origin. `first`: the number of its first point.
+std::string ball(double radius = 1, int first = 1) {
   std::string text;
   constexpr int around = 16, rings = 11;
   for (int ring = 1; ring <= rings; ++ring) {
     for (int i = 0; i < around; ++i) {
       const double a = 2 * M_PI * i / around, b = M_PI * ring / (rings + 1);
-      text += "v " + std::to_string(std::sin(b) * std::cos(a)) + " " + std::to_string(std::cos(b)) + " " +
-              std::to_string(-std::sin(b) * std::sin(a)) + "\n";
+      text += "v " + std::to_string(radius * std::sin(b) * std::cos(a)) + " " + std::to_string(radius * std::cos(b)) +
+              " " + std::to_string(-radius * std::sin(b) * std::sin(a)) + "\n";
     }
   }
-  const auto at = [](int ring, int i) { return std::to_string(1 + ring * around + i % around) + " "; };
-  const std::string top = std::to_string(around * rings + 1) + " ", bottom = std::to_string(around * rings + 2) + " ";
-  text += "v 0 1 0\nv 0 -1 0\n";
+  const auto at = [first](int ring, int i) { return std::to_string(first + ring * around + i % around) + " "; };
+  const std::string top = at(rings, 0), bottom = at(rings, 1);
+  text += "v 0 " + std::to_string(radius) + " 0\nv 0 " + std::to_string(-radius) + " 0\n";
   for (int i = 0; i < around; ++i) {
     text += "f " + top + at(0, i) + at(0, i + 1) + "\nf " + bottom + at(rings - 1, i + 1) + at(rings - 1, i) + "\n";
     for (int ring = 0; ring + 1 < rings; ++ring) {
@@ -27,6 +27,21 @@ std::string ball() {
     }
   }
   return text;
+}
+
+TEST(MatteCommands, HiddenTrianglesAreDroppedOnlyIfAsked) {
+  const test::ShotFolder folder;
+  constexpr int points = 16 * 11 + 2;
+  folder.write("balls.obj", ball() + ball(1.0 / 3, points + 1));
+  const auto kept = test::json_of(test::run_rinkaku(folder, "bake balls.obj -o kept.rgn --cells 4 --json").out);
+  const auto dropped =
+      test::json_of(test::run_rinkaku(folder, "bake balls.obj -o dropped.rgn --cells 4 --drop-hidden --json").out);
+  EXPECT_EQ(kept.at("hidden_gain"), 0);
+  EXPECT_GT(dropped.at("hidden_gain"), 0.1);
+  EXPECT_LT(dropped.at("triangles_mean_ratio"), kept.at("triangles_mean_ratio"));
+  const test::CliResult verify =
+      test::run_rinkaku(folder, "verify dropped.rgn --mesh balls.obj --eyes 20 --size 320x240");
+  EXPECT_EQ(verify.status, 0) << verify.err;
 }
 
 TEST(MatteCommands, RegionMatteEqualsTheWholeMeshs) {

@@ -94,6 +94,8 @@ TEST(InspectCommand, JsonDescribesAClosedCube) {
   EXPECT_EQ(found.at("degenerate"), 0);
   EXPECT_EQ(found.at("skins"), 0);
   EXPECT_TRUE(found.at("clips").is_array());
+  EXPECT_EQ(found.at("matte").at("single_sided_components"), 1);
+  EXPECT_EQ(found.at("matte").at("two_sided_components"), 0);
 }
 
 TEST(InspectCommand, SaysWhatIsOpen) {
@@ -102,6 +104,7 @@ TEST(InspectCommand, SaysWhatIsOpen) {
   EXPECT_EQ(test::json_of(test::run_rinkaku(folder, "inspect --json open.obj").out).at("closed"), false);
   const test::CliResult text = test::run_rinkaku(folder, "inspect open.obj");
   EXPECT_TRUE(contains(text.out, "triangles              2")) << text.out;
+  EXPECT_TRUE(contains(text.out, "1 part of 2 triangles drawn from both sides")) << text.out;
 }
 
 TEST(InspectCommand, TellsSkinsAndClipsOfARealModel) {

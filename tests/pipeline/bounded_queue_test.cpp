@@ -53,6 +53,17 @@ TEST(BoundedQueue, FullQueueMakesItsProducerWait) {
   producer.join();
 }
 
+TEST(BoundedQueue, LiveQueueDropsTheOldestAndNeverWaits) {
+  std::atomic<std::int64_t> dropped{0};
+  BoundedQueue<int> queue(2, WhenFull::DropOldest, dropped);
+  for (int i = 0; i < 10; ++i) EXPECT_TRUE(queue.push(i));
+  queue.end();
+  EXPECT_EQ(dropped, 8);
+  EXPECT_EQ(queue.pop(), 8);
+  EXPECT_EQ(queue.pop(), 9);
+  EXPECT_FALSE(queue.pop());
+}
+
 TEST(BoundedQueue, EmptyQueueMakesItsConsumerWait) {
   BoundedQueue<int> queue(2);
   std::atomic<bool> got{false};

@@ -83,6 +83,14 @@ TEST(Plan, ToonObjectIsTrackedDrawnAndComposited) {
             (Names{"decode", "track", "smooth", "import", "toon", "draw", "composite", "copy-streams", "encode"}));
 }
 
+TEST(Plan, FluffIsDrawnOnlyIfAnObjectHasIt) {
+  Scene scene = drawn_scene();
+  EXPECT_FALSE(plan_of(scene).runs("fluffy"));
+  EXPECT_EQ(stage(plan_of(scene), "fluffy").why, "no object is fluffy");
+  scene.objects[0].fluffy.emplace();
+  EXPECT_TRUE(plan_of(scene).runs("fluffy"));
+}
+
 TEST(Plan, EachLookRunsOnlyIfAnObjectHasIt) {
   Scene scene = drawn_scene();
   EXPECT_FALSE(plan_of(scene).runs("flat"));
@@ -109,6 +117,19 @@ TEST(Plan, CurvatureIsComputedOnlyForLinesThatFollowIt) {
   EXPECT_TRUE(plan_of(scene).runs("curvature"));
 }
 
+TEST(Plan, TargetsForLinesAreMadeOnlyForStylesThatNeedThem) {
+  Scene scene = drawn_scene();
+  EXPECT_FALSE(plan_of(scene).runs("line-targets"));
+  OutlineScene& line = scene.objects[0].outline.emplace();
+  for (const NamedMethod& named : line_methods()) {
+    line.method = named.method;
+    EXPECT_EQ(plan_of(scene).runs("line-targets"), needs_own_targets(named.method)) << named.word;
+  }
+  line.method = OutlineScene::Method::Uniform;
+  line.style.inner.emplace();
+  EXPECT_TRUE(plan_of(scene).runs("line-targets"));
+}
+
 TEST(Plan, HoldoutsAreCutOutAndNotShaded) {
   Scene scene = drawn_scene();
   EXPECT_FALSE(plan_of(scene).runs("holdout"));
@@ -118,6 +139,28 @@ TEST(Plan, HoldoutsAreCutOutAndNotShaded) {
   EXPECT_EQ(stage(plan, "holdout").why, "1 model of a filmed thing hides CG");
   EXPECT_EQ(stage(plan, "toon").why, "1 object toon-shaded");
   EXPECT_FALSE(plan.runs("flat"));
+}
+
+TEST(Plan, RegionsProductFollowsFromWhatShowsOfAnObject) {
+  Scene scene = drawn_scene();
+  EXPECT_EQ(stage(plan_of(scene), "regions").why, "no object has regions");
+  EXPECT_EQ(region_use(scene.objects[0]), RegionUse::None);
+  scene.objects[0].regions.emplace();
+  EXPECT_EQ(region_use(scene.objects[0]), RegionUse::Faces) << "shaded";
+  EXPECT_EQ(stage(plan_of(scene), "regions").why,
+            "1 object without the back mesh, as shading or lines show: the colour product");
+  scene.objects.emplace_back();
+  scene.objects[1].holdout = true;
+  scene.objects[1].regions.emplace();
+  EXPECT_EQ(region_use(scene.objects[1]), RegionUse::Cover);
+  EXPECT_TRUE(plan_of(scene).runs("regions"));
+  ObjectScene flat;
+  flat.regions.emplace();
+  EXPECT_EQ(region_use(flat), RegionUse::Faces) << "its materials may have many colours";
+  flat.colour = {1, 0, 0};
+  EXPECT_EQ(region_use(flat), RegionUse::Cover);
+  flat.outline.emplace();
+  EXPECT_EQ(region_use(flat), RegionUse::Faces) << "lines run inside its shape";
 }
 
 TEST(Plan, LensRunsOnlyForADistortedCameraThatSeesCg) {

@@ -23,27 +23,29 @@ std::string test_name(const testing::TestParamInfo<BadScene>& info) { return inf
 
 INSTANTIATE_TEST_SUITE_P(
     Syntax, BadSceneTest,
-    testing::Values(BadScene{"EmptyFile", "",
-                             "DIR/scene.toml: the scene is empty; it needs at least [plate] with 'video' or 'images'"},
-                    BadScene{"OnlyAComment", "# nothing\n",
-                             "DIR/scene.toml: the scene is empty; it needs at least [plate] with 'video' or 'images'"},
-                    BadScene{"Garbage", "\001\002\003 = \n",
-                             "DIR/scene.toml:1:1: not valid TOML: Error while parsing root table: expected keys, "
-                             "tables, whitespace or comments, saw '\\u0001'"},
-                    BadScene{"UnclosedArray", "video = [1,\n",
-                             "DIR/scene.toml:1:13: not valid TOML: Error while parsing array: encountered end-of-file"},
-                    BadScene{"UnclosedText", "[plate]\nvideo = \"a.mp4\n",
-                             "DIR/scene.toml:2:15: not valid TOML: Error while parsing string: unescaped control "
-                             "characters other than TAB (U+0009) are explicitly prohibited"},
-                    BadScene{"KeyTwice", "[plate]\nvideo = \"a.mp4\"\nvideo = \"b.mp4\"\n",
-                             "DIR/scene.toml:3:9: not valid TOML: Error while parsing key-value pair: cannot redefine "
-                             "existing string 'video'"}),
+    testing::Values(
+        BadScene{"EmptyFile", "",
+                 "DIR/scene.toml: the scene is empty; it needs at least [plate] with 'video', 'images' or 'device'"},
+        BadScene{"OnlyAComment", "# nothing\n",
+                 "DIR/scene.toml: the scene is empty; it needs at least [plate] with 'video', 'images' or 'device'"},
+        BadScene{"Garbage", "\001\002\003 = \n",
+                 "DIR/scene.toml:1:1: not valid TOML: Error while parsing root table: expected keys, "
+                 "tables, whitespace or comments, saw '\\u0001'"},
+        BadScene{"UnclosedArray", "video = [1,\n",
+                 "DIR/scene.toml:1:13: not valid TOML: Error while parsing array: encountered end-of-file"},
+        BadScene{"UnclosedText", "[plate]\nvideo = \"a.mp4\n",
+                 "DIR/scene.toml:2:15: not valid TOML: Error while parsing string: unescaped control "
+                 "characters other than TAB (U+0009) are explicitly prohibited"},
+        BadScene{"KeyTwice", "[plate]\nvideo = \"a.mp4\"\nvideo = \"b.mp4\"\n",
+                 "DIR/scene.toml:3:9: not valid TOML: Error while parsing key-value pair: cannot redefine "
+                 "existing string 'video'"}),
     test_name);
 
 INSTANTIATE_TEST_SUITE_P(
     Keys, BadSceneTest,
     testing::Values(
-        BadScene{"NoPlate", "[light]\n", "DIR/scene.toml: [plate] is missing; add it, with 'video' or 'images'"},
+        BadScene{"NoPlate", "[light]\n",
+                 "DIR/scene.toml: [plate] is missing; add it, with 'video', 'images' or 'device'"},
         BadScene{"MisspeltTable", "[plat]\nvideo = \"a.mp4\"\n",
                  "DIR/scene.toml:1:2: unknown key 'plat'; did you mean 'plate'?"},
         BadScene{"MisspeltKey", object + "  outlin = true\n",
@@ -69,17 +71,25 @@ INSTANTIATE_TEST_SUITE_P(
                  "DIR/scene.toml:8:10: unknown key 'band' in toon of [[object]]; did you mean 'bands'?"},
         BadScene{"InnerHeader", object + "[object.outline]\nwidth = 3\n",
                  "DIR/scene.toml:9:1: unknown key 'width' in outline of [[object]]; did you mean 'width_px'?"},
-        BadScene{"NothingNear", object + "regions = \"cow.rgn\"\n",
-                 "DIR/scene.toml:8:1: unknown key 'regions' in [[object]]; known keys are anchor, animation, colour, "
-                 "crease_deg, "
-                 "height_m, holdout, mesh, name, outline, position_m, rotation_deg, scale, toon and up"},
+        BadScene{
+            "NothingNear", object + "velocity = \"cow.rgn\"\n",
+            "DIR/scene.toml:8:1: unknown key 'velocity' in [[object]]; known keys are anchor, animation, colour, "
+            "crease_deg, "
+            "fluffy, height_m, holdout, mesh, name, outline, position_m, regions, rotation_deg, scale, toon and up"},
         BadScene{"TableOfALaterVersion", object + "[water]\n",
                  "DIR/scene.toml:8:2: unknown key 'water'; known keys are light, object, output, plate and track"},
         BadScene{"TablesOfALaterVersion", object + "[[foreground]]\nname = \"x\"\n",
                  "DIR/scene.toml:8:3: unknown key 'foreground'; known keys are light, object, output, plate and track"},
-        BadScene{"LiveCamera", "[plate]\ndevice = \"/dev/video0\"\n",
-                 "DIR/scene.toml:2:1: 'device' in [plate] isn't supported; this version takes recordings only: give "
-                 "'video' or 'images'"},
+        BadScene{"CameraAndRecording", "[plate]\ndevice = \"/dev/video0\"\nvideo = \"a.mp4\"\n",
+                 "DIR/scene.toml:3:9: 'video' in [plate] can't stand beside 'device'; keep one of them"},
+        BadScene{"CameraKeyOfARecording", "[plate]\nvideo = \"a.mp4\"\nsize_px = [640, 480]\n",
+                 "DIR/scene.toml:3:11: 'size_px' in [plate] goes with 'device'; leave it out"},
+        BadScene{"CameraSize", "[plate]\ndevice = \"/dev/video0\"\nsize_px = [640]\n",
+                 "DIR/scene.toml:3:11: 'size_px' in [plate] must be width and height in whole pixels, e.g. [1280, "
+                 "720], found an array of 1"},
+        BadScene{"CameraControl", "[plate]\ndevice = \"/dev/video0\"\ncontrols = { focus = 1.5 }\n",
+                 "DIR/scene.toml:3:22: 'focus' in controls of [plate] must be a whole number, true, false, or a "
+                 "menu's entry as text, found 1.5"},
         BadScene{"SingleBrackets", tracked + "[object]\nmesh = \"cow.obj\"\n",
                  "DIR/scene.toml:6:1: 'object' must be tables, each headed [[object]] in two brackets, found a table"},
         BadScene{"DoubleBrackets", "[[plate]]\nvideo = \"a.mp4\"\n",
@@ -92,7 +102,7 @@ INSTANTIATE_TEST_SUITE_P(
     Plate, BadSceneTest,
     testing::Values(
         BadScene{"NoPicture", "[plate]\ncamera = \"camera.yml\"\n",
-                 "DIR/scene.toml:1:1: [plate] needs one of 'video' or 'images'"},
+                 "DIR/scene.toml:1:1: [plate] needs one of 'video', 'images' or 'device'"},
         BadScene{"TwoPictures", "[plate]\nvideo = \"a.mp4\"\nimages = \"frames/%04d.png\"\n",
                  "DIR/scene.toml:3:10: 'images' in [plate] can't stand beside 'video'; keep one of them"},
         BadScene{"VideoMissing", "[plate]\nvideo = \"b.mp4\"\n",
@@ -117,7 +127,8 @@ INSTANTIATE_TEST_SUITE_P(
         BadScene{"ImagesFolderMissing", "[plate]\nimages = \"nowhere/%04d.png\"\n",
                  "DIR/scene.toml:2:10: 'images' in [plate] names a folder that doesn't exist: DIR/nowhere"},
         BadScene{"FpsOfAVideo", "[plate]\nvideo = \"a.mp4\"\nfps = 24\n",
-                 "DIR/scene.toml:3:7: 'fps' in [plate] goes with 'images': a video has times of its own; leave it out"},
+                 "DIR/scene.toml:3:7: 'fps' in [plate] goes with 'images' or 'device': a video has times of its own; "
+                 "leave it out"},
         BadScene{"FpsZero", "[plate]\nimages = \"frames/%04d.png\"\nfps = 0\n",
                  "DIR/scene.toml:3:7: 'fps' in [plate] must be a number from 0.001 to 1000, found 0"},
         BadScene{"FpsText", "[plate]\nimages = \"frames/%04d.png\"\nfps = \"24p\"\n",
@@ -271,16 +282,23 @@ INSTANTIATE_TEST_SUITE_P(
         BadScene{
             "ControlPointsTwice",
             object + "outline = { method = \"control\", control = { along = 20, sphere = 20 } }\n",
-            "DIR/scene.toml:8:69: 'along' in control of outline of [[object]] can't stand beside 'sphere'; keep one "
+            "DIR/scene.toml:8:66: 'sphere' in control of outline of [[object]] can't stand beside 'along'; keep one "
             "of them"},
         BadScene{"ControlPointOfTwoNumbers",
                  object + "outline = { method = \"control\", control = { points_m = [[1, 2]] } }\n",
-                 "DIR/scene.toml:8:60: 'points_m' in control of outline of [[object]] must be a list of points [[x, y, "
+                 "DIR/scene.toml:8:56: 'points_m' in control of outline of [[object]] must be a list of points [[x, y, "
                  "z], ...] in metres, at most 10000, found an array of 1"},
         BadScene{"ThresholdsOfBothKinds",
                  object + "outline = { method = \"control\", control = { convex = 1, concave_deg = 170 } }\n",
-                 "DIR/scene.toml:8:58: 'convex' in control of outline of [[object]] can't stand beside thresholds in "
+                 "DIR/scene.toml:8:54: 'convex' in control of outline of [[object]] can't stand beside thresholds in "
                  "degrees; give both as _deg, or none"},
+        BadScene{"AnimatedRegions", object + "animation = true\nregions = true\n",
+                 "DIR/scene.toml:9:11: 'regions' in [[object]] needs a mesh that stands still, but the object has "
+                 "'animation'; leave one of them out"},
+        BadScene{
+            "AnimatedStrokes", object + "animation = true\noutline = { method = \"strokes\" }\n",
+            "DIR/scene.toml:9:11: 'outline' in [[object]] has lines that need a mesh that stands still, but the "
+            "object has 'animation'; take the method \"uniform\", \"curvature\" or \"control\", without inner lines"},
         BadScene{"ClipFlag", object + "animation = { clip = true }\n",
                  "DIR/scene.toml:8:22: 'clip' in animation of [[object]] must be a clip's name or its number, counted "
                  "from 0, found true"},
@@ -307,10 +325,29 @@ INSTANTIATE_TEST_SUITE_P(
                  "'width_m' in place of 'width_px'"},
         BadScene{"LimitsCrossed", object + "outline = { width_m = 0.01, min_px = 5, max_px = 4 }\n",
                  "DIR/scene.toml:8:50: 'max_px' in outline of [[object]] must not be below 'min_px'"},
-        BadScene{"UnknownMethod", object + "outline = { method = \"curved\" }\n",
-                 "DIR/scene.toml:8:22: 'method' in outline of [[object]] must be \"uniform\", \"curvature\" or "
-                 "\"control\", found "
-                 "the text \"curved\""},
+        BadScene{
+            "UnknownMethod", object + "outline = { method = \"curved\" }\n",
+            "DIR/scene.toml:8:22: 'method' in outline of [[object]] must be one of \"uniform\", \"curvature\", "
+            "\"hull\", \"depth_normals\", \"silhouette\", \"laplacian\", \"z_lines\", \"hidden_lines\", \"facing\", "
+            "\"isophote\", \"wobble\", \"strokes\", \"control\", found the text \"curved\""},
+        BadScene{"KeyOfAnotherMethod", object + "outline = { method = \"hull\", wobble = 1 }\n",
+                 "DIR/scene.toml:8:39: 'wobble' in outline of [[object]] goes with method = \"wobble\"; add that, or "
+                 "leave it out"},
+        BadScene{"ThresholdOfNoMethod", object + "outline = { threshold = 0.2 }\n",
+                 "DIR/scene.toml:8:25: 'threshold' in outline of [[object]] goes with method = \"facing\" or "
+                 "\"isophote\"; add that, or leave it out"},
+        BadScene{"WidthOfFacing", object + "outline = { method = \"facing\", width_px = 2 }\n",
+                 "DIR/scene.toml:8:43: 'width_px' in outline of [[object]] has no meaning with method = \"facing\"; "
+                 "give 'threshold' in its place"},
+        BadScene{"TaperOfAPicture", object + "outline = { method = \"silhouette\", taper_px = 2 }\n",
+                 "DIR/scene.toml:8:47: 'taper_px' in outline of [[object]] goes with methods whose lines follow edges "
+                 "of the mesh; leave it out, or choose another 'method'"},
+        BadScene{
+            "MisspeltInnerKey", object + "outline = { inner = { crease = false } }\n",
+            "DIR/scene.toml:8:23: unknown key 'crease' in inner of outline of [[object]]; did you mean 'crease_deg'?"},
+        BadScene{"BrushThatIsNotThere", object + "outline = { method = \"strokes\", brush = \"gone.png\" }\n",
+                 "DIR/scene.toml:8:41: 'brush' in outline of [[object]] names a file that doesn't exist: "
+                 "DIR/gone.png"},
         BadScene{"ExaggeratedUniform", object + "outline = { exaggeration = 2 }\n",
                  "DIR/scene.toml:8:28: 'exaggeration' in outline of [[object]] goes with method = \"curvature\" or "
                  "\"control\"; add "

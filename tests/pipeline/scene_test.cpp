@@ -18,6 +18,42 @@ TEST(Scene, TakesAPlateAlone) {
   EXPECT_TRUE(scene.output.path.empty());
 }
 
+TEST(Scene, TakesACamera) {
+  const SceneFolder folder;
+  const Scene scene = folder.read(
+      "[plate]\ndevice = \"/dev/video3\"\nsize_px = [640, 360]\nfps = 29.97\nformat = \"YUYV\"\n"
+      "controls = { zoom = 2, auto_exposure = \"Manual Mode\", autofocus = false }\n");
+  ASSERT_TRUE(scene.plate.device);
+  const CameraDevice& camera = *scene.plate.device;
+  EXPECT_EQ(camera.device, "/dev/video3");
+  EXPECT_EQ(camera.width_px, 640);
+  EXPECT_EQ(camera.height_px, 360);
+  EXPECT_EQ(camera.fps, (Rational{30000, 1001}));
+  EXPECT_EQ(camera.format, "YUYV");
+  // In the file's order: one may wake the next.
+  ASSERT_EQ(camera.controls.size(), 3u);
+  EXPECT_EQ(camera.controls[0].name, "zoom");
+  EXPECT_EQ(std::get<std::int64_t>(camera.controls[0].value), 2);
+  EXPECT_EQ(std::get<std::string>(camera.controls[1].value), "Manual Mode");
+  EXPECT_EQ(std::get<std::int64_t>(camera.controls[2].value), 0);
+}
+
+TEST(Scene, CameraOrRecordingOfTheCallReplacesTheFiles) {
+  const SceneFolder folder;
+  const std::string video = "[plate]\nvideo = \"a.mp4\"\n", device = "[plate]\ndevice = \"/dev/video3\"\nfps = 15\n";
+  folder.read(video);
+  const Scene live = read_scene(folder / "scene.toml", {.device = "/dev/video1"});
+  ASSERT_TRUE(live.plate.device);
+  EXPECT_EQ(live.plate.device->device, "/dev/video1");
+  folder.read(device);
+  const Scene other = read_scene(folder / "scene.toml", {.device = "/dev/video1"});
+  EXPECT_EQ(other.plate.device->device, "/dev/video1");
+  EXPECT_EQ(other.plate.device->fps, (Rational{15, 1}));
+  const Scene recorded = read_scene(folder / "scene.toml", {.input = "take.mkv"});
+  EXPECT_FALSE(recorded.plate.device);
+  EXPECT_FALSE(recorded.plate.fps);
+}
+
 TEST(Scene, TakesPicturesPerSecond) {
   const SceneFolder folder;
   const std::string images = "[plate]\nimages = \"frames/%04d.png\"\n";
@@ -49,6 +85,17 @@ TEST(Scene, FillsInDefaults) {
   EXPECT_FALSE(scene.track->smoothing.on);
   EXPECT_EQ(scene.track->hold_s, 0.3);
   EXPECT_EQ(scene.output.content, OutputScene::Content::Composite);
+}
+
+TEST(Scene, RegionsAreAFileOrTheCache) {
+  const SceneFolder folder;
+  EXPECT_FALSE(folder.read(object).objects[0].regions);
+  EXPECT_FALSE(folder.read(object + "regions = false\n").objects[0].regions);
+  EXPECT_EQ(folder.read(object + "regions = true\n").objects[0].regions.value().file, "");
+  const Scene named = folder.read(object + "regions = \"baked/cow.rgn\"\n");
+  EXPECT_EQ(named.objects[0].regions.value().file, folder / "baked/cow.rgn") << "it needn't be there yet";
+  EXPECT_EQ(folder.message(object + "regions = 3\n"),
+            "DIR/scene.toml:8:11: 'regions' in [[object]] must be true, false or a path, found 3");
 }
 
 TEST(Scene, ReadsEveryKeyOfAnObject) {
@@ -98,6 +145,53 @@ TEST(Scene, TakesLinesThatFollowCurvature) {
   EXPECT_EQ(line.min_factor, 0.1);
   EXPECT_EQ(line.smoothing, 0);
   EXPECT_EQ(line.taper_px, 7);
+}
+
+TEST(Scene, TakesEveryStyleOfLine) {
+  const SceneFolder folder;
+  for (const NamedMethod& named : line_methods()) {
+    const std::string key = std::string("outline = { method = \"") + named.word + "\" }\n";
+    const OutlineScene line = *folder.read(object + key).objects[0].outline;
+    EXPECT_EQ(line.method, named.method);
+    EXPECT_EQ(line.taper_px, usual_taper_px(named.method)) << named.word;
+    EXPECT_EQ(line.style.inner.has_value(), brings_inner_lines(named.method)) << named.word;
+  }
+}
+
+TEST(Scene, TakesStrokes) {
+  const SceneFolder folder;
+  const LineStyleScene style =
+      folder
+          .read(object +
+                "outline = { method = \"strokes\", brush = \"a.mp4\", brush_px = 80, stroke_px = 30, gap = 0.2, "
+                "pressure = 1, dryness = 0.5 }\n")
+          .objects[0]
+          .outline->style;
+  EXPECT_EQ(style.brush, folder / "a.mp4");  // whether it is a picture is seen when it is read
+  EXPECT_EQ(style.brush_px, 80);
+  EXPECT_EQ(style.stroke_px, 30);
+  EXPECT_EQ(style.gap, 0.2);
+  EXPECT_EQ(style.pressure, 1);
+  EXPECT_EQ(style.dryness, 0.5);
+}
+
+TEST(Scene, TakesInnerLinesOfAnyMethod) {
+  const SceneFolder folder;
+  const OutlineScene line = *folder
+                                 .read(object +
+                                       "outline = { inner = { creases = false, crease_deg = 20, materials = false, "
+                                       "cuts = false, width_px = 1.5, colour = \"#ff0000\" } }\n")
+                                 .objects[0]
+                                 .outline;
+  ASSERT_TRUE(line.style.inner);
+  EXPECT_FALSE(line.style.inner->creases);
+  EXPECT_EQ(line.style.inner->crease_deg, 20);
+  EXPECT_FALSE(line.style.inner->materials);
+  EXPECT_FALSE(line.style.inner->cuts);
+  EXPECT_EQ(line.style.inner->width_px, 1.5);
+  EXPECT_EQ(line.style.inner->colour, (std::array{1.0, 0.0, 0.0}));
+  EXPECT_FALSE(
+      folder.read(object + "outline = { method = \"z_lines\", inner = false }\n").objects[0].outline->style.inner);
 }
 
 TEST(Scene, TakesLinesInMetres) {

@@ -78,5 +78,33 @@ TEST_F(Holdout, CutsLinesAsWell) {
   EXPECT_EQ(alpha_at(cut, 40, 48), 255);
 }
 
+// Any list stands for a region's here: what is asked is only whether it is taken.
+TEST_F(Holdout, CoverOfARegionIsDrawnWhereItHasFewerTriangles) {
+  const mesh::Mesh ball = sphere(2);
+  const View v = view(64, 64, 60);
+  passes::ObjectShape shape(ball, moved(0, 0, 4));
+  const std::size_t whole = shape.look(v, picture_of(v)).front.size();
+  EXPECT_FALSE(shape.last_look().cull_back_faces);
+  std::vector<std::uint32_t> list(whole - 3);
+  glm::dvec3 asked_for(0);
+  passes::RegionKnowledge known;
+  known.cover = [&](const glm::dvec3& eye) {
+    asked_for = eye;
+    return std::span<const std::uint32_t>(list);
+  };
+  shape.use_regions(known);
+  const passes::Look& less = shape.look(v, picture_of(v));
+  EXPECT_EQ(less.front.data(), list.data());
+  EXPECT_TRUE(less.cull_back_faces);
+  ASSERT_EQ(less.front_runs.size(), 1u);
+  EXPECT_EQ(less.front_runs[0].index_count, list.size());
+  EXPECT_EQ(asked_for, glm::dvec3(0, 0, -4)) << "the eye in the object's coordinates";
+  list.resize(whole);
+  EXPECT_EQ(shape.look(v, picture_of(v)).front.size(), whole);
+  EXPECT_FALSE(shape.last_look().cull_back_faces) << "no fewer: the whole mesh's are taken";
+  list.clear();
+  EXPECT_EQ(shape.look(v, picture_of(v)).front.size(), whole) << "no region holds the eye";
+}
+
 }  // namespace
 }  // namespace rinkaku::test

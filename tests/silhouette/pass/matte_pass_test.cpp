@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <random>
 
-#include "silhouette/pass/matte_target.h"
+#include "pipeline/gl/target.h"
 #include "silhouette/verify/matte_comparison.h"
 #include "tests/pipeline/passes/gl_test.h"
 
@@ -21,7 +21,7 @@ class MattePassTest : public test::GlTest {
     camera.cx_px = camera.cy_px = 7.5;
     MattePass pass(points);
     pass.set_triangles(list);
-    MatteTarget target;
+    gl::Target target(gl::Target::Kind::Matte);
     target.begin(16, 16);
     pass.draw(passes::clip_from_camera(camera, {0, 0, 16, 16}) * camera_from_object);
     std::vector<std::uint8_t> matte(16 * 16);
@@ -103,7 +103,7 @@ TEST_F(MattePassTest, MeshFarFromItsOwnOriginLosesNothing) {
 
 TEST_F(MattePassTest, NewListReplacesTheOld) {
   MattePass pass(quad);
-  MatteTarget target;
+  gl::Target target(gl::Target::Kind::Matte);
   CameraModel camera = camera_of({32, 32}, 2.6);
   std::vector<std::uint8_t> matte(32 * 32);
   for (const auto& [list, expected] : {std::pair(facing, true), std::pair(away, false), std::pair(facing, true)}) {
@@ -143,7 +143,7 @@ TEST_F(MattePassTest, CullingDoesNotDependOnWhatElseIsDrawn) {
     with_clipped.insert(with_clipped.begin() + static_cast<std::ptrdiff_t>(at), {n - 3, n - 2, n - 1});
   }
   MattePass pass(points);
-  MatteTarget target;
+  gl::Target target(gl::Target::Kind::Matte);
   const auto upper_half = [&](const std::vector<std::uint32_t>& list) {
     std::vector<std::uint8_t> matte(width * height);
     pass.set_triangles(list);
@@ -159,7 +159,7 @@ TEST_F(MattePassTest, CullingDoesNotDependOnWhatElseIsDrawn) {
 }
 
 TEST_F(MattePassTest, PictureLargerThanTheDriverDrawsIsRefused) {
-  MatteTarget target;
+  gl::Target target(gl::Target::Kind::Matte);
   EXPECT_THROW(target.begin(1 << 20, 16), Error);
   target.begin(16, 16);  // and it still works
 }

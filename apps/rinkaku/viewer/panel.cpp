@@ -1,0 +1,139 @@
+#include "apps/rinkaku/viewer/panel.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+
+#include <backends/imgui_impl_glfw.h>
+#include <backends/imgui_impl_opengl3.h>
+#include <imgui.h>
+
+#include "apps/rinkaku/viewer/tunables.h"
+#include "apps/rinkaku/viewer/value_fields.h"
+
+namespace rinkaku::app {
+namespace {
+
+const ImVec4 warning(1.0f, 0.45f, 0.35f, 1.0f);
+constexpr float panel_width = 330;
+
+void style_panel(float scale) {
+  ImGui::StyleColorsDark();
+  ImGuiStyle& style = ImGui::GetStyle();
+  style.WindowRounding = style.FrameRounding = style.GrabRounding = 3;
+  style.WindowBorderSize = 0;
+  style.Colors[ImGuiCol_WindowBg].w = 0.82f;
+  style.ScaleAllSizes(scale);
+  ImGuiIO& io = ImGui::GetIO();
+  io.IniFilename = nullptr;
+  ImFontConfig font;
+  font.SizePixels = std::round(13 * scale);
+  io.Fonts->AddFontDefault(&font);
+}
+
+}  // namespace
+
+Panel::Panel(window::Window& window) : scale_(window.scale()) {
+  IMGUI_CHECKVERSION();
+  ImGui::CreateContext();
+  style_panel(scale_);
+  ImGui_ImplGlfw_InitForOpenGL(window.handle(), true);
+  ImGui_ImplOpenGL3_Init("#version 450 core");
+}
+
+Panel::~Panel() {
+  ImGui_ImplOpenGL3_Shutdown();
+  ImGui_ImplGlfw_Shutdown();
+  ImGui::DestroyContext();
+}
+
+bool Panel::wants_keys() const { return ImGui::GetIO().WantTextInput; }
+
+PanelWish Panel::draw(const SceneFile& file, const PanelFacts& facts) {
+  PanelWish wish;
+  const std::string& lost = facts.status.health.notice;
+  if (!open_ && facts.trouble.empty() && lost.empty()) return wish;
+  ImGui_ImplOpenGL3_NewFrame();
+  ImGui_ImplGlfw_NewFrame();
+  ImGui::NewFrame();
+  const ImVec2 display = ImGui::GetIO().DisplaySize;
+  ImGui::SetNextWindowPos({8 * scale_, 8 * scale_}, ImGuiCond_Always);
+  const float width = std::min(panel_width * scale_, display.x - 16 * scale_);
+  ImGui::SetNextWindowSizeConstraints({width, 0}, {width, std::max(40.0f, display.y - 16 * scale_)});
+  constexpr ImGuiWindowFlags fixed = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoResize |
+                                     ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoSavedSettings;
+  ImGui::Begin("rinkaku", nullptr, fixed);
+  for (const std::string* line : {&facts.trouble, &lost}) {
+    if (line->empty()) continue;
+    ImGui::PushStyleColor(ImGuiCol_Text, warning);
+    ImGui::TextWrapped("%s", line->c_str());
+    ImGui::PopStyleColor();
+  }
+  if (open_) {
+    draw_transport(file, facts, wish);
+    draw_values(file, wish);
+    draw_times(facts);
+  }
+  ImGui::End();
+  ImGui::Render();
+  ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
+  return wish;
+}
+
+void Panel::draw_transport(const SceneFile& file, const PanelFacts& facts, PanelWish& wish) {
+  const char* state = facts.ended ? "at its end" : facts.paused ? "paused" : facts.status.live ? "live" : "playing";
+  const long long number = facts.shown ? static_cast<long long>(facts.shown->frame.number) : 0;
+  ImGui::Text("%s  frame %lld  %.1f fps%s", state, number, facts.fps,
+              facts.shown && !facts.shown->posed ? "  no pose" : "");
+  if (facts.status.live) {
+    const auto& health = facts.status.health;
+    ImGui::Text("capture to screen %.0f ms", facts.latency_ms);
+    ImGui::Text("lost: %lld before us, %lld by us; damaged %lld", static_cast<long long>(health.missed),
+                static_cast<long long>(facts.status.dropped.before + facts.status.dropped.drawn),
+                static_cast<long long>(health.damaged));
+  }
+  wish.pause = ImGui::Button(facts.paused ? "go on" : "pause");
+  ImGui::SameLine();
+  wish.step = ImGui::Button("step");
+  ImGui::SameLine();
+  if (!facts.status.live) {
+    wish.restart = ImGui::Button("restart");
+    ImGui::SameLine();
+  }
+  wish.full_screen = ImGui::Button("full screen");
+  wish.screenshot = ImGui::Button("screenshot");
+  ImGui::SameLine();
+  wish.save = ImGui::Button(file.unsaved() ? "save scene *" : "save scene");
+  if (!facts.notice.empty()) ImGui::TextWrapped("%s", facts.notice.c_str());
+}
+
+void Panel::draw_values(const SceneFile& file, PanelWish& wish) {
+  const auto add = [&wish](const toml::Path& path, const std::string& text) { wish.values.push_back({path, text}); };
+  for (std::size_t i = 0; i < file.objects(); ++i) {
+    const pipeline::ObjectScene& object = file.scene().objects[i];
+    ImGui::PushID(static_cast<int>(i));
+    const std::string title = object.name.empty() ? object.mesh.filename().string() : object.name;
+    if (ImGui::CollapsingHeader((title + "###object").c_str(), i == 0 ? ImGuiTreeNodeFlags_DefaultOpen : 0)) {
+      for (const Tunable& tunable : object_tunables()) {
+        const bool drawn = !object.holdout || std::string_view(tunable.table).empty();
+        if (drawn) draw_field(file, tunable, {{"object", i}}, add);
+      }
+    }
+    ImGui::PopID();
+  }
+  for (const Tunable& tunable : scene_tunables()) draw_field(file, tunable, {}, add);
+}
+
+void Panel::draw_times(const PanelFacts& facts) {
+  if (!facts.shown || !ImGui::CollapsingHeader("stages (ms)")) return;
+  const auto& stages = facts.status.stages;
+  // The first waits for the camera or the beat.
+  for (std::size_t i = 1; i < stages.size() && i < smooth_ms_.size(); ++i) {
+    smooth_ms_[i] += 0.1f * (facts.shown->stage_ms[i] - smooth_ms_[i]);
+    if (stages[i] == "watch" || stages[i] == "show" || stages[i] == "encode") continue;
+    ImGui::Text("%-12s %6.2f", stages[i].c_str(), static_cast<double>(smooth_ms_[i]));
+  }
+}
+
+}  // namespace rinkaku::app

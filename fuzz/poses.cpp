@@ -1,0 +1,16 @@
+// Whatever bytes a pose file holds, reading it ends in poses or in an Error.
+#include <cstddef>
+#include <cstdint>
+
+#include "fuzz/in_memory_file.h"
+#include "pipeline/frame/error.h"
+#include "pipeline/track/pose_file.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  static rinkaku::fuzz::InMemoryFile file;
+  try {
+    rinkaku::track::read_poses(file.holding(data, size));
+  } catch (const rinkaku::Error&) {
+  }
+  return 0;
+}

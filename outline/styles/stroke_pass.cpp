@@ -1,0 +1,220 @@
+#include "outline/styles/stroke_pass.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <string_view>
+
+#include <glm/geometric.hpp>
+#include <glm/gtc/type_ptr.hpp>
+#include <glm/matrix.hpp>
+
+#include "embedded/stroke.frag.h"
+#include "embedded/stroke.vert.h"
+#include "mesh/bounds.h"
+
+namespace rinkaku::outline {
+namespace {
+
+gl::VertexArrayHandle make_array() {
+  GLuint name = 0;
+  glCreateVertexArrays(1, &name);
+  const struct {
+    GLint size;
+    std::size_t offset;
+  } attributes[] = {{3, offsetof(StrokeVertex, position)},
+                    {2, offsetof(StrokeVertex, push_px)},
+                    {2, offsetof(StrokeVertex, along_px)},
+                    {3, offsetof(StrokeVertex, half_px)}};
+  for (GLuint i = 0; i < std::size(attributes); ++i) {
+    glEnableVertexArrayAttrib(name, i);
+    glVertexArrayAttribFormat(name, i, attributes[i].size, GL_FLOAT, GL_FALSE,
+                              static_cast<GLuint>(attributes[i].offset));
+    glVertexArrayAttribBinding(name, i, 0);
+  }
+  return gl::VertexArrayHandle(name);
+}
+
+double scale_of(const glm::dmat4& world_from_object) {
+  return std::cbrt(std::abs(glm::determinant(glm::dmat3(world_from_object))));
+}
+
+}  // namespace
+
+StrokePass::StrokePass(passes::DrawnObject& object, const mesh::Mesh& mesh, const mesh::Topology& topology,
+                       const StrokeOptions& options)
+    : object_(object),
+      options_(options),
+      radius_m_(mesh::bounding_sphere(mesh.positions).radius * scale_of(object.shape().world_from_object())),
+      own_positions_(mesh.positions.size()),
+      welded_(mesh.welded),
+      contour_chains_(mesh.welded),
+      inner_chains_({}),
+      depth_(SurfaceBuffer::Content::Depth),
+      array_(make_array()) {
+  options_.brush = nullptr;
+  if (options.lines != StrokeOptions::Lines::Contour) {
+    features_ = find_features(mesh, topology, options.features);
+    inner_chains_ = Chains(features_.welded);
+  }
+  if (options.isophote > 0) bends_.emplace(topology);
+
+  const std::string_view vertex[] = {embedded::stroke_vert}, fragment[] = {embedded::stroke_frag};
+  std::span<const std::string_view> defines;
+  const std::string_view with_brush[] = {"BRUSH"};
+  if (options.brush != nullptr) {
+    defines = with_brush;
+    brush_ = gl::Texture(options.brush->width_px, options.brush->height_px, options.brush->rgba);
+    glTextureParameteri(brush_.name(), GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+  }
+  program_ = gl::Program("strokes", defines, vertex, fragment);
+  const GLuint name = program_.name();
+  glProgramUniform3fv(name, program_.uniform("colour"), 1, glm::value_ptr(options.look.colour));
+  glProgramUniform1f(name, program_.uniform("taper_px"), options.taper_px);
+  glProgramUniform1i(name, program_.uniform("outside"), options.outside ? 1 : 0);
+  glProgramUniform4f(name, program_.uniform("strokes"), options.stroke_px, options.gap, options.pressure,
+                     options.dryness);
+  glProgramUniform1f(name, program_.uniform("near_m"), static_cast<float>(passes::near_m));
+  glProgramUniform1f(name, program_.uniform("brush_px"), options.brush_px);
+  constexpr float dash_px = 8;
+  glProgramUniform1f(name, program_.uniform("dash_px"), options.only_hidden ? dash_px : 0);
+  glProgramUniform1f(name, program_.uniform("opacity"), options.opacity);
+  glProgramUniform1i(name, program_.uniform("own_depth"), 0);
+  glProgramUniform1i(name, program_.uniform("brush"), 1);
+  clip_from_object_ = program_.uniform("clip_from_object");
+  viewport_px_ = program_.uniform("viewport_px");
+  origin_ = program_.uniform("origin");
+  last_pixel_ = program_.uniform("last_pixel");
+  opaque_ = program_.uniform("opaque");
+  thickness_m_ = program_.uniform("thickness_m");
+}
+
+double StrokePass::reach_px(const passes::View& view) const {
+  double widest = std::max(widest_px(options_.look, object_.shape().last_look(), view), 1.0);
+  if (options_.isophote > 0) widest *= options_.most_factor;
+  if (options_.wobble > 0) widest *= std::min(1 + 1.8 * options_.wobble, 3.0) + options_.wobble;
+  // At bends twice as far, and what smoothing moves.
+  return 2 * (options_.outside ? widest : 0.5 * widest) + 3;
+}
+
+PositionView StrokePass::positions() const {
+  return {
+      reinterpret_cast<const std::byte*>(object_.shape().vertices().data()) + offsetof(passes::ShapeVertex, position),
+      sizeof(passes::ShapeVertex)};
+}
+
+void StrokePass::add_contour(const passes::DrawCall& call) {
+  constexpr float longest_px = 24;
+  const passes::Look& look = object_.shape().last_look();
+  segments_.clear();
+  for (const auto& piece : look.contour_pieces) segments_.push_back({piece.from, piece.to});
+  const auto seen = static_cast<std::uint32_t>(segments_.size());
+  for (const auto& piece : look.hidden_contour_pieces) segments_.push_back({piece.from, piece.to});
+  contour_chains_.link(segments_);
+  runs_.part(contour_chains_, seen, positions(), look.to_pixels, longest_px);
+  for (const SeenRuns::Run& run : runs_.runs()) {
+    add_line(call, runs_.vertices().subspan(run.first, run.count), run.closed, true);
+  }
+}
+
+void StrokePass::add_inner(const passes::DrawCall& call) {
+  const passes::ObjectShape& shape = object_.shape();
+  const passes::Look& look = shape.last_look();
+  segments_.clear();
+  for (const Feature& feature : features_.list) {
+    const bool seen = look.front_faces[feature.face0] != 0 && look.front_faces[feature.face1] != 0;
+    if (seen || options_.only_hidden || shape.two_sided()) segments_.push_back(feature.segment);
+  }
+  inner_chains_.link(segments_);
+  for (const Chain& chain : inner_chains_.chains()) {
+    add_line(call, inner_chains_.vertices().subspan(chain.first, chain.count), chain.closed, false);
+  }
+}
+
+void StrokePass::add_line(const passes::DrawCall& call, std::span<const std::uint32_t> vertices, bool closed,
+                          bool contour) {
+  const float shortest = contour ? 1.5f : 5;  // in widths: less is a blot
+  const passes::ObjectShape& shape = object_.shape();
+  const passes::Look& look = shape.last_look();
+  const double scale = scale_of(shape.world_from_object());
+  const PositionView own = positions();
+  const float drop = 1 - std::sqrt(1 - options_.isophote * options_.isophote);
+  const auto px_per_unit = static_cast<float>(call.view.camera.fx_px * scale);
+  glm::vec3 eye(0);
+  if (bends_) {
+    eye = glm::vec3(glm::inverse(shape.world_from_object()) *
+                    glm::dvec4(inverse(call.view.camera_from_world).translation_m, 1.0));
+  }
+  widths_px_.clear();
+  for (const std::uint32_t v : vertices) {
+    const glm::vec3 at = v < own_positions_ ? own[v] : features_.more_positions[v - own_positions_];
+    const float depth = std::abs((look.to_pixels * glm::vec4(at, 1)).z);
+    float width = width_at_px(options_.look, call.view.camera.fx_px, depth);
+    if (bends_ && contour) {
+      // Where a surface is hollow that way, its contour ends: no wider there than at least.
+      const float bend = bends_->at(welded_[v], eye - at);
+      const float to_isophote_px = bend > 0 ? px_per_unit * drop / (bend * depth) : 0;
+      width = std::clamp(to_isophote_px, 0.2f * width, options_.most_factor * width);
+    }
+    widths_px_.push_back(width);
+  }
+  PathOptions how;
+  if (!options_.hand) how.smoothing = 0;
+  if (bends_) how.most_growth = 0.15f;
+  path_.trace(vertices, widths_px_, own, features_.more_positions, own_positions_, look.to_pixels, closed, how);
+  if (path_.samples().empty() || path_.length_px() < shortest * widths_px_.front()) return;
+  const float period_px = options_.stroke_px > 0 ? options_.stroke_px : brush_.name() != 0 ? options_.brush_px : 0;
+  const StrokeFit fit = memory_.fit(path_, period_px);
+  memory_.remember(path_, fit);
+  const std::uint32_t draft =
+      options_.redraw_frames > 0 ? frame_ / static_cast<std::uint32_t>(options_.redraw_frames) : 0;
+  strips_.add(path_, fit,
+              {options_.outside && contour, shape.mirrored(), options_.wobble,
+               options_.wave_m / static_cast<float>(scale), draft});
+}
+
+void StrokePass::collect(const passes::DrawCall& call) {
+  strips_.clear();
+  memory_.begin(object_.shape().last_look().to_pixels);
+  if (options_.lines != StrokeOptions::Lines::Inner) add_contour(call);
+  if (options_.lines != StrokeOptions::Lines::Contour) add_inner(call);
+  ++frame_;
+}
+
+void StrokePass::draw_depth(const passes::DrawCall& call, const passes::PixelRect& rect) {
+  const gl::ElsewhereScope scope;
+  depth_.draw(object_, call, rect, nullptr);
+}
+
+void StrokePass::draw_edges(const passes::DrawCall& call) {
+  collect(call);
+  const passes::Look& look = object_.shape().last_look();
+  const passes::PixelRect rect = intersection(look.bounds, call.rect);
+  if (strips_.indices().empty() || rect.empty()) return;
+  draw_depth(call, rect);
+  vertex_buffer_.write(std::as_bytes(strips_.vertices()));
+  index_buffer_.write(std::as_bytes(strips_.indices()));
+  glVertexArrayVertexBuffer(array_.name(), 0, vertex_buffer_.name(), 0, sizeof(StrokeVertex));
+  glVertexArrayElementBuffer(array_.name(), index_buffer_.name());
+  glBindVertexArray(array_.name());
+  glUseProgram(program_.name());
+  glUniformMatrix4fv(clip_from_object_, 1, GL_FALSE, glm::value_ptr(call.clip_from_object));
+  glUniform2f(viewport_px_, call.viewport_px.x, call.viewport_px.y);
+  glUniform2i(origin_, rect.x_px - call.rect.x_px, rect.y_px - call.rect.y_px);
+  // How far a ball as large as the object bulges before its contour at the line's inner rim, and a third more.
+  const double rim_px = 0.5 * widest_px(options_.look, look, call.view) + 1;
+  const double ball_px = std::max(call.view.camera.fx_px * radius_m_ / std::max(look.distance_m, passes::near_m), 1.0);
+  glUniform1f(thickness_m_, static_cast<float>(1.33 * radius_m_ * std::sqrt(2 * rim_px / ball_px)));
+  glUniform2i(last_pixel_, rect.width_px - 1, rect.height_px - 1);
+  glBindTextureUnit(0, depth_.depth());
+  if (brush_.name() != 0) glBindTextureUnit(1, brush_.name());
+  // Outside, what is opaque hides edges of the body behind it, which are drawn later.
+  for (const bool opaque : {true, false}) {
+    if (opaque && !options_.outside) continue;
+    glUniform1i(opaque_, opaque ? 1 : 0);
+    glDepthMask(opaque ? GL_TRUE : GL_FALSE);
+    glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(strips_.indices().size()), GL_UNSIGNED_INT, nullptr);
+  }
+}
+
+}  // namespace rinkaku::outline

@@ -1,0 +1,215 @@
+#include "pipeline/outline_passes.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <memory>
+#include <utility>
+
+#include <glm/matrix.hpp>
+
+#include "mesh/bounds.h"
+#include "mesh/topology.h"
+#include "outline/line_width.h"
+#include "outline/pass/hull_pass.h"
+#include "outline/strokes/bristles.h"
+#include "outline/styles/facing_pass.h"
+#include "outline/styles/inverted_hull_pass.h"
+#include "outline/styles/picture_lines_pass.h"
+#include "outline/styles/stroke_pass.h"
+#include "pipeline/control_line.h"
+#include "pipeline/stroke_image.h"
+
+namespace rinkaku::pipeline {
+namespace {
+
+using M = LineMethod;
+
+glm::vec3 colour(const std::array<double, 3>& c) { return glm::vec3(c[0], c[1], c[2]); }
+
+outline::LineLook look_of(const OutlineScene& line) {
+  return {static_cast<float>(line.width_px), static_cast<float>(line.width_m.value_or(0)),
+          static_cast<float>(line.min_px), static_cast<float>(line.max_px), colour(line.colour)};
+}
+
+outline::LineLook thinner(outline::LineLook look) {
+  look.width_px /= 2, look.width_m /= 2, look.least_px /= 2, look.most_px /= 2;
+  return look;
+}
+
+double radius_m(const passes::DrawnObject& object, const mesh::Mesh& mesh) {
+  const double scale = std::cbrt(std::abs(glm::determinant(glm::dmat3(object.shape().world_from_object()))));
+  return mesh::bounding_sphere(mesh.positions).radius * scale;
+}
+
+std::unique_ptr<passes::ObjectPass> hull(passes::DrawnObject& object, const OutlineScene& line,
+                                         const passes::LineStyle& style) {
+  outline::HullOptions options;
+  options.width_px = static_cast<float>(line.width_px);
+  options.width_m = static_cast<float>(line.width_m.value_or(0));
+  options.least_px = static_cast<float>(line.min_px);
+  options.most_px = static_cast<float>(line.max_px);
+  options.colour = colour(line.colour);
+  options.style = style;
+  return std::make_unique<outline::HullPass>(object, options);
+}
+
+// The thinnest that a line of uneven width gets.
+OutlineScene least_of(OutlineScene line) {
+  const double part = line.method == M::Isophote ? 0.2 : std::max(0.25, 1 - line.style.wobble);
+  line.width_px *= part, line.min_px *= part, line.max_px *= part;
+  if (line.width_m) *line.width_m *= part;
+  return line;
+}
+
+std::unique_ptr<passes::ObjectPass> picture_lines(passes::StyledObject& styled, const mesh::Mesh& mesh,
+                                                  const OutlineScene& line) {
+  using Method = outline::PictureLinesOptions::Method;
+  outline::PictureLinesOptions options;
+  options.look = look_of(line);
+  options.method = line.method == M::Silhouette  ? Method::Silhouette
+                   : line.method == M::Laplacian ? Method::Laplacian
+                                                 : Method::DepthNormals;
+  options.depth_step_m = static_cast<float>(line.style.depth_step * radius_m(*styled.object, mesh));
+  options.normal_deg = static_cast<float>(line.style.normal_deg);
+  options.contrast = static_cast<float>(line.style.contrast);
+  return std::make_unique<outline::PictureLinesPass>(*styled.object, *styled.passes.front(), options);
+}
+
+std::unique_ptr<passes::ObjectPass> strokes(passes::DrawnObject& object, const mesh::Mesh& mesh,
+                                            const OutlineScene& line) {
+  const LineStyleScene& style = line.style;
+  outline::StrokeOptions options;
+  options.look = look_of(line);
+  options.taper_px = static_cast<float>(line.taper_px);
+  mesh::Texture brush;
+  if (line.method == M::Isophote) {
+    options.outside = true;
+    options.isophote = static_cast<float>(style.threshold);
+    options.most_factor = static_cast<float>(style.most_factor);
+  } else if (line.method == M::Wobble) {
+    options.outside = true;
+    options.wobble = static_cast<float>(style.wobble);
+    options.wave_m = static_cast<float>(style.wave * radius_m(object, mesh));
+    options.redraw_frames = style.redraw_frames;
+  } else {
+    brush = style.brush.empty() ? outline::bristles() : read_stroke_image(style.brush);
+    options.brush = &brush;
+    options.brush_px = static_cast<float>(style.brush_px);
+    options.stroke_px = static_cast<float>(style.stroke_px);
+    options.gap = static_cast<float>(style.gap);
+    options.pressure = static_cast<float>(style.pressure);
+    options.dryness = static_cast<float>(style.dryness);
+  }
+  return std::make_unique<outline::StrokePass>(object, mesh, mesh::topology(mesh), options);
+}
+
+std::unique_ptr<passes::ObjectPass> hidden_lines(passes::DrawnObject& object, const mesh::Mesh& mesh,
+                                                 const OutlineScene& line, const InnerLinesScene& inner) {
+  outline::StrokeOptions options;
+  options.lines = outline::StrokeOptions::Lines::All;
+  options.features = {inner.creases, inner.crease_deg, inner.materials, inner.cuts};
+  options.only_hidden = true;
+  options.look = thinner(look_of(line));
+  options.opacity = static_cast<float>(line.style.hidden);
+  return std::make_unique<outline::StrokePass>(object, mesh, mesh::topology(mesh), options);
+}
+
+std::unique_ptr<passes::ObjectPass> inner_lines(passes::DrawnObject& object, const mesh::Mesh& mesh,
+                                                const OutlineScene& line, const InnerLinesScene& inner) {
+  outline::StrokeOptions options;
+  options.lines = outline::StrokeOptions::Lines::Inner;
+  options.features = {inner.creases, inner.crease_deg, inner.materials, inner.cuts};
+  options.hand = false;
+  options.look = thinner(look_of(line));
+  if (inner.width_px) options.look.width_px = static_cast<float>(*inner.width_px), options.look.width_m = 0;
+  // Lighter than the contour, as those who classify lines draw them.
+  options.look.colour = inner.colour ? colour(*inner.colour) : glm::mix(colour(line.colour), glm::vec3(0.5f), 0.35f);
+  return std::make_unique<outline::StrokePass>(object, mesh, mesh::topology(mesh), options);
+}
+
+outline::WidthOptions width_options(const OutlineScene& line) {
+  outline::WidthOptions options;
+  options.kind = line.curvature;
+  options.sign = line.sign;
+  options.exaggeration = static_cast<float>(line.exaggeration);
+  options.saturation = static_cast<float>(line.saturation);
+  options.curve = static_cast<float>(line.curve);
+  options.least = static_cast<float>(line.min_factor);
+  options.smoothing = line.smoothing;
+  return options;
+}
+
+}  // namespace
+
+void add_outline(passes::StyledObject& styled, const mesh::Mesh& mesh, const OutlineScene& line,
+                 const passes::LineStyle& style) {
+  passes::DrawnObject& object = *styled.object;
+  // What lies over the body comes before it in the list.
+  std::vector<std::unique_ptr<passes::ObjectPass>> over;
+  std::unique_ptr<passes::ObjectPass> under;
+  switch (line.method) {
+    case M::Uniform:
+    case M::Curvature:
+    case M::Control:
+    case M::ZLines:
+      under = hull(object, line, style);
+      break;
+    case M::HiddenLines:
+      under = hull(object, line, style);
+      if (line.style.inner) over.push_back(hidden_lines(object, mesh, line, *line.style.inner));
+      break;
+    case M::Hull:
+      under = std::make_unique<outline::InvertedHullPass>(object, mesh, look_of(line));
+      break;
+    case M::Silhouette:
+      under = picture_lines(styled, mesh, line);
+      break;
+    case M::DepthNormals:
+    case M::Laplacian:
+      over.push_back(picture_lines(styled, mesh, line));
+      break;
+    case M::Facing:
+      under = std::make_unique<outline::FacingPass>(
+          object, outline::FacingOptions{static_cast<float>(line.style.threshold), colour(line.colour)});
+      break;
+    case M::Isophote:
+    case M::Wobble:
+      // Where the contour zigzags over small triangles strokes may leave a gap; a thin even line closes it.
+      styled.passes.push_back(strokes(object, mesh, line));
+      under = hull(object, least_of(line), style);
+      break;
+    case M::Strokes:
+      over.push_back(strokes(object, mesh, line));
+      break;
+  }
+  if (line.style.inner) over.push_back(inner_lines(object, mesh, line, *line.style.inner));
+  for (auto& pass : over) styled.passes.insert(styled.passes.begin(), std::move(pass));
+  if (under) styled.passes.push_back(std::move(under));
+}
+
+passes::LineStyle line_style(const mesh::Mesh& mesh, const glm::dmat4& world_from_object, const OutlineScene& line,
+                             bool moves, std::vector<float>& factors) {
+  passes::LineStyle style;
+  style.taper_px = static_cast<float>(line.taper_px);
+  if (line.method != M::Curvature && line.method != M::Control) return style;
+  const mesh::Topology topology = mesh::topology(mesh);
+  const auto follow = [&](auto widths) {
+    if (moves) {
+      style.most_factor = 1 + static_cast<float>(line.exaggeration);
+      style.follow = [widths](const passes::LineStyle::Moved& now) { widths->at(now.points, now.wanted, now.factors); };
+      return;
+    }
+    const std::span<const float> found = widths->at(topology.points);
+    factors.assign(found.begin(), found.end());
+    style.factors = factors;
+  };
+  if (line.method == M::Curvature) {
+    follow(std::make_shared<outline::CurvatureWidths>(topology, width_options(line)));
+  } else {
+    follow(std::make_shared<outline::ControlWidths>(control_widths(line, topology, world_from_object)));
+  }
+  return style;
+}
+
+}  // namespace rinkaku::pipeline
