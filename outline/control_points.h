@@ -22,7 +22,7 @@ std::vector<glm::vec3> control_points_on_sphere(const mesh::Topology& topology, 
 std::vector<glm::vec3> control_points_along(const mesh::Topology& topology, int count, double distance);
 
 struct ControlOptions {
-  FeatureOptions features{};
+  FeaturePointOptions features{};
   double exaggeration = 2;  ///< the most that is added to the base line, in base lines
   double reach =
       0;  ///< d0: from this distance on inwards that much is added; 0: what a quarter of the features have at rest

@@ -18,7 +18,7 @@ double angle_sum(const glm::vec3& p1, const glm::vec3& n1, const glm::vec3& p2, 
   return angle(glm::dot(edge, glm::dvec3(n1)) / length) + angle(-glm::dot(edge, glm::dvec3(n2)) / length);
 }
 
-FeaturePoints::FeaturePoints(const mesh::Topology& rest, double k95, const FeatureOptions& options)
+FeaturePoints::FeaturePoints(const mesh::Topology& rest, double k95, const FeaturePointOptions& options)
     : options_(options),
       k95_(k95),
       stars_(face_stars(rest)),
@@ -70,7 +70,7 @@ FeaturePoints::Kind FeaturePoints::kind_of(std::span<const glm::vec3> points, st
     const glm::vec3 other = normal_at(points, q);
     if (other == glm::vec3(0)) continue;
     const double sum = angle_sum(points[p], normal, points[q], other);
-    if (options_.by == FeatureOptions::By::Degrees) {
+    if (options_.by == FeaturePointOptions::By::Degrees) {
       concave += options_.concave > glm::degrees(sum) ? 1 : 0;
       convex += options_.convex < glm::degrees(sum) ? 1 : 0;
       continue;

@@ -12,7 +12,7 @@
 namespace rinkaku::outline {
 
 /// When a point of a surface is a feature.
-struct FeatureOptions {
+struct FeaturePointOptions {
   /// Thresholds on how much the surface bends along an edge: on the sum of angles itself in degrees, as the thesis has
   /// it (A below 180, B above); or on its excess over 180 degrees by the edge's length, which is about the curvature
   /// along the edge, in K95 (both above 0).
@@ -34,7 +34,7 @@ struct FeatureOptions {
 class FeaturePoints {
  public:
   /// `k95` of the rest pose, for thresholds that count in it.
-  FeaturePoints(const mesh::Topology& rest, double k95, const FeatureOptions& options);
+  FeaturePoints(const mesh::Topology& rest, double k95, const FeaturePointOptions& options);
 
   enum class Kind : std::uint8_t { None, Concave, Convex };
   /// Which of some points are features, as `points` are now. Valid at `wanted` until the next call. A point that passes
@@ -45,7 +45,7 @@ class FeaturePoints {
   glm::vec3 normal_at(std::span<const glm::vec3> points, std::uint32_t point);
   Kind kind_of(std::span<const glm::vec3> points, std::uint32_t point);
 
-  FeatureOptions options_;
+  FeaturePointOptions options_;
   double k95_;
   FaceStars stars_;
   std::vector<std::uint32_t> first_, neighbours_;

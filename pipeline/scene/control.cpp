@@ -36,7 +36,7 @@ std::vector<glm::dvec3> read_points(const Table& table) {
   return points;
 }
 
-void read_features(const Table& control, outline::FeatureOptions& features) {
+void read_features(const Table& control, outline::FeaturePointOptions& features) {
   const bool degrees = control.has("convex_deg") || control.has("concave_deg");
   for (const std::string_view key : {"convex", "concave"}) {
     if (degrees && control.has(key)) {
@@ -44,7 +44,7 @@ void read_features(const Table& control, outline::FeatureOptions& features) {
     }
   }
   if (degrees) {
-    features.by = outline::FeatureOptions::By::Degrees;
+    features.by = outline::FeaturePointOptions::By::Degrees;
     features.convex = control.number("convex_deg", {180, 360}).value_or(360);
     features.concave = control.number("concave_deg", {0, 180}).value_or(0);
   } else {

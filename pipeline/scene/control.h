@@ -20,7 +20,7 @@ struct ControlScene {
   double distance = 0.1;             ///< how far off, in half diagonals of the mesh's bounding box
   std::optional<double> reach_m;     ///< d0; empty: a quarter of the features lie within it
   bool lengths = false;              ///< equation 3.5 as printed: by how much the vectors' lengths differ
-  outline::FeatureOptions features{};
+  outline::FeaturePointOptions features{};
 };
 
 toml::Schema control_schema();

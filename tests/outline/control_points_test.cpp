@@ -16,7 +16,7 @@ namespace {
 
 using outline::ControlOptions;
 using outline::ControlWidths;
-using outline::FeatureOptions;
+using outline::FeaturePointOptions;
 using outline::FeaturePoints;
 using Kind = FeaturePoints::Kind;
 
@@ -28,7 +28,7 @@ std::vector<std::uint32_t> all_of(const mesh::Topology& topology) {
 
 double k95_of(const mesh::Topology& topology) { return outline::k95(outline::curvature(topology)); }
 
-std::vector<Kind> kinds_of(const mesh::Topology& topology, const FeatureOptions& options) {
+std::vector<Kind> kinds_of(const mesh::Topology& topology, const FeaturePointOptions& options) {
   FeaturePoints features(topology, k95_of(topology), options);
   const std::span<const Kind> found = features.find(topology.points, all_of(topology));
   return {found.begin(), found.end()};
@@ -51,8 +51,8 @@ TEST(FeaturePoints, AngleSumIsThatOfTheFigure) {
 // ring the surface curves inwards on its inner side: by up to 1 / 0.3 a unit over edges of 0.3 * 6 degrees, 6 degrees.
 TEST(FeaturePoints, ThresholdsInDegreesAreStrict) {
   const mesh::Topology torus = mesh::topology(Torus{}.mesh(60, 40));
-  FeatureOptions options;
-  options.by = FeatureOptions::By::Degrees;
+  FeaturePointOptions options;
+  options.by = FeaturePointOptions::By::Degrees;
   options.comparison = 1;
   const auto share = [&](double concave, double convex, Kind kind) {
     options.concave = concave, options.convex = convex;
@@ -73,7 +73,7 @@ TEST(FeaturePoints, ThresholdsInK95DoAtAnySizeAndFineness) {
       mesh::Mesh mesh = Torus{1, 0.2}.mesh(3 * across, across);
       for (glm::vec3& p : mesh.positions) p *= static_cast<float>(size);
       // The tube bends by 1 / 0.2 across; K95 is the mean with what it bends along the ring.
-      FeatureOptions options;
+      FeaturePointOptions options;
       options.concave = 0;
       options.convex = 1.2;
       const std::vector<Kind> sharp = kinds_of(mesh::topology(mesh), options);
@@ -88,8 +88,8 @@ TEST(FeaturePoints, ThresholdsInK95DoAtAnySizeAndFineness) {
 TEST(FeaturePoints, ComparisonCountsNeighbours) {
   // A point on a cube's edge row: of its neighbours some lie across the edge and bend, those along it don't.
   const mesh::Topology cone = mesh::topology(double_cone(12));
-  FeatureOptions options;
-  options.by = FeatureOptions::By::Degrees;
+  FeaturePointOptions options;
+  options.by = FeaturePointOptions::By::Degrees;
   options.convex = 181;
   options.concave = 0;
   // Each of the 12 points of the ring has four neighbours, all of them convex; a tip has twelve.

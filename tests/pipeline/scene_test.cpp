@@ -209,7 +209,7 @@ TEST(Scene, TakesControlPoints) {
   const auto line = [&](const std::string& control) {
     return *folder.read(object + "outline = { method = \"control\"" + control + " }\n").objects[0].outline;
   };
-  using By = outline::FeatureOptions::By;
+  using By = outline::FeaturePointOptions::By;
   const OutlineScene defaults = line("");
   EXPECT_EQ(defaults.method, OutlineScene::Method::Control);
   EXPECT_EQ(defaults.taper_px, 15);
