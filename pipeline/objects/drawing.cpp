@@ -73,7 +73,7 @@ PreparedObject prepare(mesh::Imported imported, const ObjectScene& object, const
   }
   std::vector<float> factors;
   passes::LineStyle line;
-  if (object.outline) line = line_style(mesh, *object.outline, object.animation.has_value(), factors);
+  if (object.outline) line = line_style(mesh, place, *object.outline, object.animation.has_value(), factors);
   std::optional<Fluff> fluff;
   if (object.fluffy) fluff = prepare_fluff(object, mesh, place);
   if (object.fluffy && object.outline) thin_line_under_fluff(factors, object, mesh);

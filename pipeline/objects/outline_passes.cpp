@@ -17,6 +17,7 @@
 #include "outline/styles/inverted_hull_pass.h"
 #include "outline/styles/picture_lines_pass.h"
 #include "outline/styles/stroke_pass.h"
+#include "pipeline/objects/control_line.h"
 #include "pipeline/objects/drawn_lines_file.h"
 #include "pipeline/objects/texture_file.h"
 
@@ -153,6 +154,18 @@ std::unique_ptr<passes::ObjectPass> inner_lines(passes::DrawnObject& object, con
   return std::make_unique<outline::StrokePass>(object, mesh, mesh::topology(mesh), options);
 }
 
+outline::WidthOptions width_options(const OutlineScene& line) {
+  outline::WidthOptions options;
+  options.kind = line.curvature;
+  options.sign = line.sign;
+  options.exaggeration = static_cast<float>(line.exaggeration);
+  options.saturation = static_cast<float>(line.saturation);
+  options.curve = static_cast<float>(line.curve);
+  options.least = static_cast<float>(line.min_factor);
+  options.smoothing = line.smoothing;
+  return options;
+}
+
 }  // namespace
 
 void add_outline(passes::StyledObject& styled, const mesh::Mesh& mesh, const OutlineScene& line,
@@ -164,6 +177,7 @@ void add_outline(passes::StyledObject& styled, const mesh::Mesh& mesh, const Out
   switch (line.method) {
     case M::Uniform:
     case M::Curvature:
+    case M::Control:
     case M::ZLines:
       under = hull(object, line, style);
       break;
@@ -201,28 +215,26 @@ void add_outline(passes::StyledObject& styled, const mesh::Mesh& mesh, const Out
   if (under) styled.passes.push_back(std::move(under));
 }
 
-passes::LineStyle line_style(const mesh::Mesh& mesh, const OutlineScene& line, bool moves,
-                             std::vector<float>& factors) {
+passes::LineStyle line_style(const mesh::Mesh& mesh, const glm::dmat4& world_from_object, const OutlineScene& line,
+                             bool moves, std::vector<float>& factors) {
   passes::LineStyle style;
   style.taper_px = static_cast<float>(line.taper_px);
-  if (line.method != M::Curvature) return style;
-  outline::WidthOptions options;
-  options.kind = line.curvature;
-  options.sign = line.sign;
-  options.exaggeration = static_cast<float>(line.exaggeration);
-  options.saturation = static_cast<float>(line.saturation);
-  options.curve = static_cast<float>(line.curve);
-  options.least = static_cast<float>(line.min_factor);
-  options.smoothing = line.smoothing;
+  if (line.method != M::Curvature && line.method != M::Control) return style;
   const mesh::Topology topology = mesh::topology(mesh);
-  const auto widths = std::make_shared<outline::CurvatureWidths>(topology, options);
-  if (moves) {
-    style.most_factor = 1 + options.exaggeration;
-    style.follow = [widths](const passes::LineStyle::Moved& now) { widths->at(now.points, now.wanted, now.factors); };
-  } else {
+  const auto follow = [&](auto widths) {
+    if (moves) {
+      style.most_factor = 1 + static_cast<float>(line.exaggeration);
+      style.follow = [widths](const passes::LineStyle::Moved& now) { widths->at(now.points, now.wanted, now.factors); };
+      return;
+    }
     const std::span<const float> found = widths->at(topology.points);
     factors.assign(found.begin(), found.end());
     style.factors = factors;
+  };
+  if (line.method == M::Curvature) {
+    follow(std::make_shared<outline::CurvatureWidths>(topology, width_options(line)));
+  } else {
+    follow(std::make_shared<outline::ControlWidths>(control_widths(line, topology, world_from_object)));
   }
   return style;
 }

@@ -2,6 +2,8 @@
 
 #include <vector>
 
+#include <glm/mat4x4.hpp>
+
 #include "mesh/mesh.h"
 #include "pipeline/passes/layer_renderer.h"
 #include "pipeline/scene/outline.h"
@@ -16,7 +18,7 @@ void add_outline(passes::StyledObject& styled, const mesh::Mesh& mesh, const Out
 
 /// What varies along an object's line: how it ends, and how it follows the shape, found once in `factors` (per welded
 /// point of the mesh, empty where it is even), or in every frame if the object moves. No GL.
-passes::LineStyle line_style(const mesh::Mesh& mesh, const OutlineScene& outline, bool moves,
-                             std::vector<float>& factors);
+passes::LineStyle line_style(const mesh::Mesh& mesh, const glm::dmat4& world_from_object, const OutlineScene& outline,
+                             bool moves, std::vector<float>& factors);
 
 }  // namespace rinkaku::pipeline

@@ -43,12 +43,20 @@ void read_width(const Table& outline, OutlineScene& scene) {
 
 void read_curvature_width(const Table& outline, OutlineScene& scene) {
   using O = OutlineScene;
-  for (const std::string_view key :
-       {"curvature", "sign", "exaggeration", "saturation", "curve", "min_factor", "smoothing"}) {
+  for (const std::string_view key : {"curvature", "sign", "saturation", "curve", "min_factor"}) {
     if (outline.has(key) && scene.method != O::Method::Curvature) {
       throw outline.error_at(key, "goes with method = \"curvature\"", "add that, or leave it out");
     }
   }
+  for (const std::string_view key : {"exaggeration", "smoothing"}) {
+    if (outline.has(key) && scene.method != O::Method::Curvature && scene.method != O::Method::Control) {
+      throw outline.error_at(key, "goes with method = \"curvature\" or \"control\"", "add that, or leave it out");
+    }
+  }
+  if (outline.has("control") && scene.method != O::Method::Control) {
+    throw outline.error_at("control", "goes with method = \"control\"", "add that, or leave it out");
+  }
+  scene.control = read_control(outline);
   scene.curvature = read_choice<O::Curvature>(outline, "curvature",
                                               {{"mean", O::Curvature::Mean},
                                                {"gauss", O::Curvature::Gauss},
@@ -71,10 +79,11 @@ void read_curvature_width(const Table& outline, OutlineScene& scene) {
 toml::Schema outline_schema() {
   toml::Section outline{.path = "object.outline",
                         .keys = {"width_px", "width_m", "min_px", "max_px", "taper_px", "colour", "method", "curvature",
-                                 "sign", "exaggeration", "saturation", "curve", "min_factor", "smoothing"}};
+                                 "sign", "exaggeration", "saturation", "curve", "min_factor", "smoothing", "control"}};
   for (const std::string_view key : line_style_keys()) outline.keys.push_back(key);
   toml::Schema schema{std::move(outline)};
   for (toml::Section& section : line_style_schema()) schema.push_back(std::move(section));
+  for (toml::Section& section : control_schema()) schema.push_back(std::move(section));
   return schema;
 }
 

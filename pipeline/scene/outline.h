@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "outline/width_options.h"
+#include "pipeline/scene/control.h"
 #include "pipeline/scene/line_style.h"
 #include "pipeline/toml/table.h"
 
@@ -30,6 +31,7 @@ struct OutlineScene {
   double curve = 1;
   double min_factor = 0.25;
   int smoothing = 3;
+  ControlScene control;  ///< for the method Control, which has exaggeration and smoothing as well
 };
 
 toml::Schema outline_schema();
