@@ -82,9 +82,9 @@ ControlWidths::ControlWidths(const mesh::Topology& rest, double k95, std::span<c
     if (kinds[p] != FeaturePoints::Kind::None) distances.push_back(distance(rest.points[p], controls_[nearest_[p]]));
   }
   if (distances.empty()) return;
-  const auto quarter = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 4);
-  std::nth_element(distances.begin(), quarter, distances.end());
-  options_.reach = *quarter;
+  const auto tenth = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 10);
+  std::nth_element(distances.begin(), tenth, distances.end());
+  options_.reach = *tenth;
 }
 
 void ControlWidths::attach(const mesh::Topology& rest, std::span<const glm::vec3> controls) {

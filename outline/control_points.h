@@ -23,9 +23,9 @@ std::vector<glm::vec3> control_points_along(const mesh::Topology& topology, int 
 
 struct ControlOptions {
   FeaturePointOptions features{};
-  double exaggeration = 2;  ///< the most that is added to the base line, in base lines
-  double reach =
-      0;  ///< d0: from this distance on inwards that much is added; 0: what a quarter of the features have at rest
+  double exaggeration = 1;  ///< the most that is added to the base line, in base lines
+  /// d0: from this distance on inwards that much is added; 0: what a tenth of the features have at rest.
+  double reach = 0;
   /// How far a feature xi is from its control point xj: |xi - xj|; or, as equation 3.5 is printed, | |xi| - |xj| |.
   enum class Distance { Apart, Lengths } distance = Distance::Apart;
   int smoothing = 3;  ///< as for curvature

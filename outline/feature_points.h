@@ -17,8 +17,8 @@ struct FeaturePointOptions {
   /// it (A below 180, B above); or on its excess over 180 degrees by the edge's length, which is about the curvature
   /// along the edge, in K95 (both above 0).
   enum class By { Degrees, K95 } by = By::K95;
-  double concave = 0.5;  ///< A; 0 in K95, or 0 degrees: no concave features
-  double convex = 0.5;   ///< B; 0 in K95, or 360 degrees: no convex features
+  double concave = 1;  ///< A; 0 in K95, or 0 degrees: no concave features
+  double convex = 1;   ///< B; 0 in K95, or 360 degrees: no convex features
   int comparison = 1;    ///< more neighbours than this must pass
 };
 

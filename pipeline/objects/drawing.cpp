@@ -15,6 +15,7 @@
 #include "pipeline/objects/animated.h"
 #include "pipeline/objects/fluff.h"
 #include "pipeline/objects/in_parallel.h"
+#include "pipeline/objects/line_weights.h"
 #include "pipeline/objects/outline_passes.h"
 #include "pipeline/objects/placement.h"
 #include "pipeline/passes/holdout/holdout_pass.h"
@@ -63,6 +64,7 @@ void give_colour(mesh::Mesh& mesh, const ObjectScene& object) {
 }
 
 PreparedObject prepare(mesh::Imported imported, const ObjectScene& object, const LightScene& light) {
+  const std::vector<float> weights = line_weights(object, imported.mesh);
   give_colour(imported.mesh, object);
   const mesh::Mesh& mesh = imported.mesh;
   const glm::dmat4 place = world_from_object(object, mesh::bounding_box(mesh.positions), imported.summary.up);
@@ -73,7 +75,9 @@ PreparedObject prepare(mesh::Imported imported, const ObjectScene& object, const
   }
   std::vector<float> factors;
   passes::LineStyle line;
-  if (object.outline) line = line_style(mesh, place, *object.outline, object.animation.has_value(), factors);
+  if (object.outline) {
+    line = line_style(mesh, *object.outline, {place, light.direction, weights, object.animation.has_value()}, factors);
+  }
   std::optional<Fluff> fluff;
   if (object.fluffy) fluff = prepare_fluff(object, mesh, place);
   if (object.fluffy && object.outline) thin_line_under_fluff(factors, object, mesh);

@@ -18,7 +18,7 @@ struct ControlScene {
   int on_sphere = 0;                 ///< so many on a sphere around it
   int along = 60;                    ///< so many along the shape, if there are no others
   double distance = 0.1;             ///< how far off, in half diagonals of the mesh's bounding box
-  std::optional<double> reach_m;     ///< d0; empty: a quarter of the features lie within it
+  std::optional<double> reach_m;     ///< d0; empty: a tenth of the features lie within it
   bool lengths = false;              ///< equation 3.5 as printed: by how much the vectors' lengths differ
   outline::FeaturePointOptions features{};
 };

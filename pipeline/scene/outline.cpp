@@ -79,10 +79,11 @@ void read_curvature_width(const Table& outline, OutlineScene& scene) {
 toml::Schema outline_schema() {
   toml::Section outline{.path = "object.outline",
                         .keys = {"width_px", "width_m", "min_px", "max_px", "taper_px", "colour", "method", "curvature",
-                                 "sign", "exaggeration", "saturation", "curve", "min_factor", "smoothing", "control"}};
+                                 "sign", "exaggeration", "saturation", "curve", "min_factor", "smoothing", "control", "weight"}};
   for (const std::string_view key : line_style_keys()) outline.keys.push_back(key);
   toml::Schema schema{std::move(outline)};
   for (toml::Section& section : line_style_schema()) schema.push_back(std::move(section));
+  for (toml::Section& section : line_weight_schema()) schema.push_back(std::move(section));
   for (toml::Section& section : control_schema()) schema.push_back(std::move(section));
   return schema;
 }
@@ -93,6 +94,7 @@ std::optional<OutlineScene> read_outline(const Table& object) {
     read_method(*outline, scene);
     read_width(*outline, scene);
     read_curvature_width(*outline, scene);
+    scene.weight = read_line_weight(*outline, scene.method);
     scene.style = read_line_style(*outline, scene.method);
     scene.taper_px = outline->number("taper_px", {0, 1000}).value_or(usual_taper_px(scene.method));
     scene.colour = read_colour(*outline, "colour").value_or(scene.colour);

@@ -15,7 +15,7 @@ const std::vector<Tunable>& object_tunables() {
       {"outline", "width_px", "width", Kind::Number, 0.5, 20, 3},
       {"outline", "colour", "line colour", Kind::Colour},
       {"outline", "method", "method", Kind::Choice, 0, 0, 0, false, {"uniform", "curvature"}},
-      {"outline", "exaggeration", "exaggeration", Kind::Number, 0, 20, 2, false, {}, "method", "curvature"},
+      {"outline", "exaggeration", "exaggeration", Kind::Number, 0, 20, 1, false, {}, "method", "curvature"},
       {"outline", "saturation", "saturation", Kind::Number, 0.05, 10, 1, true, {}, "method", "curvature"},
       {"outline", "curve", "curve", Kind::Number, 0.1, 4, 1, false, {}, "method", "curvature"},
       {"outline", "min_factor", "thinnest", Kind::Number, 0.05, 1, 0.25, false, {}, "method", "curvature"},
