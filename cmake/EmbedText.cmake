@@ -6,9 +6,10 @@ function(rinkaku_embed_text target)
     get_filename_component(name "${file}" NAME)
     string(REGEX REPLACE "[^A-Za-z0-9]" "_" symbol "${name}")
     set(out "${out_dir}/embedded/${name}.h")
+    file(RELATIVE_PATH path "${PROJECT_SOURCE_DIR}" "${CMAKE_CURRENT_SOURCE_DIR}/${file}")
     add_custom_command(
       OUTPUT "${out}"
-      COMMAND ${CMAKE_COMMAND} -DIN=${CMAKE_CURRENT_SOURCE_DIR}/${file} -DOUT=${out} -DSYMBOL=${symbol}
+      COMMAND ${CMAKE_COMMAND} -DIN=${CMAKE_CURRENT_SOURCE_DIR}/${file} -DOUT=${out} -DSYMBOL=${symbol} -DPATH_IN_SOURCES=${path}
               -P ${PROJECT_SOURCE_DIR}/cmake/embed_text_file.cmake
       DEPENDS "${file}" "${PROJECT_SOURCE_DIR}/cmake/embed_text_file.cmake"
       VERBATIM)

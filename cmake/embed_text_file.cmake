@@ -1,2 +1,3 @@
+# The text begins with a comment that names its file, by which gl::use_shaders_from() finds another version of it.
 file(READ "${IN}" text)
-file(WRITE "${OUT}" "#pragma once\n#include <string_view>\nnamespace rinkaku::embedded {\ninline constexpr std::string_view ${SYMBOL} = R\"shader(${text})shader\";\n}  // namespace rinkaku::embedded\n")
+file(WRITE "${OUT}" "#pragma once\n#include <string_view>\nnamespace rinkaku::embedded {\ninline constexpr std::string_view ${SYMBOL} = R\"shader(// ${PATH_IN_SOURCES}\n${text})shader\";\n}  // namespace rinkaku::embedded\n")

@@ -33,6 +33,7 @@ struct ViewCall {
   std::string session;
   std::string codec;
   std::string screenshots;
+  std::string shaders;
   double seconds = 0;
   bool headless = false;
   bool no_panel = false;

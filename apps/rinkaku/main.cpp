@@ -98,6 +98,9 @@ struct CommandLine {
     sub->add_option("SCENE", c.scene, "Scene file (TOML)")->required();
     sub->add_option("--seconds", c.seconds, "End by itself after so long")->check(CLI::Range(0.1, 1e9));
     sub->add_flag("--no-panel", c.no_panel, "Begin with the panel closed (Tab opens it)");
+    sub->add_option("--shaders", c.shaders,
+                    "Folder whose shaders take the place of those built in, e.g. rinkaku's own sources; read anew when "
+                    "they change");
     sub->add_option("--screenshots", c.screenshots, "Folder for screenshots (key P); the current one if not given");
     add_json(sub, c.json);
   }

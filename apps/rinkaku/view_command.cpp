@@ -1,4 +1,5 @@
 #include <cstdio>
+#include <filesystem>
 #include <string>
 
 #include <nlohmann/json.hpp>
@@ -7,6 +8,7 @@
 #include "apps/rinkaku/json_output.h"
 #include "apps/rinkaku/viewer/view.h"
 #include "pipeline/frame/error.h"
+#include "pipeline/gl/shader_text.h"
 
 namespace rinkaku::app {
 namespace {
@@ -59,7 +61,13 @@ void print(const ViewReport& report) {
 }  // namespace
 
 int view(const ViewCall& call, bool live) {
-  SceneFile file(call.scene, {.input = call.input, .device = call.camera});
+  if (!call.shaders.empty()) {
+    if (!std::filesystem::is_directory(call.shaders)) {
+      throw input_error(call.shaders, "is no folder", "give one with shaders as rinkaku's sources have them");
+    }
+    gl::use_shaders_from(call.shaders);
+  }
+  SceneFile file(call.scene, {.input = call.input, .device = call.camera}, call.shaders);
   if (live && !file.scene().plate.device) {
     throw input_error(file.scene().file.string(), "films a recording, not a camera",
                       "give --camera /dev/video0, or 'device' in [plate]; 'rinkaku play' shows recordings");

@@ -2,6 +2,7 @@
 
 #include "pipeline/frame/error.h"
 #include "pipeline/gl/count.h"
+#include "pipeline/gl/shader_text.h"
 
 namespace rinkaku::gl {
 namespace {
@@ -10,7 +11,7 @@ ShaderHandle compile(GLenum stage, std::string_view name, std::span<const std::s
                      std::span<const std::string_view> parts) {
   std::string text = "#version 450 core\n";
   for (std::string_view define : defines) text.append("#define ").append(define).append("\n");
-  for (std::string_view part : parts) text.append(part).append("\n");
+  for (std::string_view part : parts) text.append(shader_text(part)).append("\n");
   ShaderHandle shader(glCreateShader(stage));
   const char* source = text.c_str();
   glShaderSource(shader.name(), 1, &source, nullptr);

@@ -11,6 +11,9 @@
 
 #include <glm/vec3.hpp>
 
+#include "mesh/topology.h"
+#include "outline/curvature.h"
+#include "outline/curvature_colours.h"
 #include "pipeline/gl/context.h"
 #include "pipeline/objects/animated.h"
 #include "pipeline/objects/fluff.h"
@@ -63,12 +66,20 @@ void give_colour(mesh::Mesh& mesh, const ObjectScene& object) {
   mesh.textures.clear();
 }
 
-PreparedObject prepare(mesh::Imported imported, const ObjectScene& object, const LightScene& light) {
+void paint_with_curvature(mesh::Mesh& mesh) {
+  const outline::Curvature curvature = outline::curvature(mesh::topology(mesh));
+  mesh = outline::painted_with_curvature(std::move(mesh), curvature, outline::k95(curvature));
+}
+
+PreparedObject prepare(mesh::Imported imported, const ObjectScene& object, const LightScene& light, Paint paint) {
   const std::vector<float> weights = line_weights(object, imported.mesh);
   give_colour(imported.mesh, object);
+  const bool painted = paint == Paint::Curvature && !object.holdout;
+  if (painted) paint_with_curvature(imported.mesh);
   const mesh::Mesh& mesh = imported.mesh;
   const glm::dmat4 place = world_from_object(object, mesh::bounding_box(mesh.positions), imported.summary.up);
-  const passes::ToonOptions toon = toon_options(object, light);
+  passes::ToonOptions toon = toon_options(object, light);
+  if (painted) toon.bands = 0;
   passes::ObjectShape shape(mesh, place, passes::band_borders(mesh, place, toon));
   if (object.animation) {
     shape.animate(mesh, imported.rig, playback(*object.animation, imported.rig, object.mesh));
@@ -115,7 +126,7 @@ void use_regions(const Scene& scene, std::span<std::optional<PreparedObject>> al
 }
 
 // Objects of one file share its import, which takes a process.
-std::vector<std::optional<PreparedObject>> prepare_all(const Scene& scene, const RegionOptions& regions) {
+std::vector<std::optional<PreparedObject>> prepare_all(const Scene& scene, const RegionOptions& regions, Paint paint) {
   std::map<std::tuple<std::filesystem::path, double, bool>, std::size_t> known;
   std::vector<const ObjectScene*> distinct;
   std::vector<std::size_t> import_of;
@@ -129,7 +140,7 @@ std::vector<std::optional<PreparedObject>> prepare_all(const Scene& scene, const
   in_parallel(distinct.size(), [&](std::size_t i) { imported[i] = import_mesh(*distinct[i]); });
   std::vector<std::optional<PreparedObject>> prepared(scene.objects.size());
   in_parallel(prepared.size(), [&](std::size_t i) {
-    prepared[i].emplace(prepare(imported[import_of[i]], scene.objects[i], scene.light));
+    prepared[i].emplace(prepare(imported[import_of[i]], scene.objects[i], scene.light, paint));
   });
   use_regions(scene, prepared, regions);
   return prepared;
@@ -190,7 +201,7 @@ std::vector<passes::StyledObject> style(const Scene& scene, std::vector<std::opt
 }  // namespace
 
 Drawing make_drawing(const Scene& scene, const passes::PixelRect& picture, const RegionOptions& regions) {
-  auto preparing = std::async(std::launch::async, prepare_all, std::cref(scene), std::cref(regions));
+  auto preparing = std::async(std::launch::async, prepare_all, std::cref(scene), std::cref(regions), Paint::Scene);
   Drawing drawing;
   drawing.context = gl::Context::headless();
   drawing.picture = picture;
@@ -213,9 +224,9 @@ PreparedObjects::~PreparedObjects() = default;
 PreparedObjects::PreparedObjects(PreparedObjects&&) noexcept = default;
 PreparedObjects& PreparedObjects::operator=(PreparedObjects&&) noexcept = default;
 
-PreparedObjects prepare_objects(const Scene& scene) {
+PreparedObjects prepare_objects(const Scene& scene, Paint paint) {
   auto all = std::make_unique<PreparedObjects::All>();
-  all->objects = prepare_all(scene, {});
+  all->objects = prepare_all(scene, {}, paint);
   return PreparedObjects(std::move(all));
 }
 

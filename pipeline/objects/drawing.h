@@ -36,8 +36,12 @@ class PreparedObjects {
   std::unique_ptr<All> all_;
 };
 
+/// What surfaces show: the scene's colours, or the mean curvature of their shape at rest (see
+/// outline::painted_with_curvature), unlit, but for holdouts.
+enum class Paint { Scene, Curvature };
+
 /// On any thread, without OpenGL. Throws Error (Input) for a mesh.
-PreparedObjects prepare_objects(const Scene& scene);
+PreparedObjects prepare_objects(const Scene& scene, Paint paint = Paint::Scene);
 
 /// The GL side of a scene: context, objects on the GPU, their passes. Lives on the thread that made it.
 struct Drawing {

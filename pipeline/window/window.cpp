@@ -38,6 +38,8 @@ Key meaning(int key) {
       return Key::Quit;
     case GLFW_KEY_P:
       return Key::Screenshot;
+    case GLFW_KEY_V:
+      return Key::Look;
     case GLFW_KEY_HOME:
       return Key::Restart;
     default:

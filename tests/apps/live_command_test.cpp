@@ -137,5 +137,71 @@ TEST(Live, WindowShowsTheCompositeAndObeysKeys) {
   EXPECT_EQ(folder.frames("rinkaku_000001.png").at(0).format.width_px, 64);
 }
 
+TEST(Live, KeyShowsMattesAndCurvature) {
+  if (std::system("command -v Xvfb xdotool >/dev/null 2>&1") != 0) GTEST_SKIP() << "Xvfb or xdotool is not installed";
+  const ShotFolder folder(640, 480);
+  test::ffmpeg("-f lavfi -i color=gray:size=640x480:rate=25 -frames:v 4 -pix_fmt yuv420p -c:v ffv1 '" +
+               folder.file("in.mkv") + "'");
+  folder.write("scene.toml", "[plate]\nvideo = \"in.mkv\"\ncamera = \"camera.yml\"\n" + locked + cube);
+  const CliResult result = on_a_screen(
+      folder,
+      "\"$RINKAKU\" play scene.toml --no-panel --json >report 2>trouble & player=$!; "
+      "for i in $(seq 100); do xdotool search --name rinkaku >window 2>/dev/null && break; sleep 0.1; done; sleep 1.5; "
+      "for i in 1 2 3; do xdotool mousemove 32 24 key p; "
+      "for k in $(seq 100); do [ -s rinkaku_00000$i.png ] && break; sleep 0.1; done; xdotool key v; sleep 2; done; "
+      "xdotool key q; wait $player");
+  ASSERT_EQ(result.status, 0) << result.err << text_of(folder / "trouble");
+  const auto shot = [&folder](int number) {
+    return folder.frames("rinkaku_00000" + std::to_string(number) + ".png").at(0);
+  };
+  const Frame picture = shot(1), mattes = shot(2), curvature = shot(3);
+  // The cube is in the middle and leaves the corners free.
+  EXPECT_EQ(mattes.format.pixels.model, ColourModel::Grey);
+  EXPECT_EQ(sample(mattes, 0, 320, 240), 255);
+  EXPECT_EQ(sample(mattes, 0, 2, 2), 0);
+  // All of a cube's corners are convex, which is red; before it had its own colour.
+  EXPECT_GT(sample(curvature, 0, 320, 240), sample(curvature, 2, 320, 240) + 30);
+  EXPECT_NE(sample(curvature, 1, 320, 240), sample(picture, 1, 320, 240));
+  for (int c = 0; c < 3; ++c) EXPECT_EQ(sample(curvature, c, 2, 2), sample(picture, c, 2, 2));
+}
+
+TEST(Live, ShadersAreReadAnewAndWrongOnesChangeNothing) {
+  if (std::system("command -v Xvfb xdotool >/dev/null 2>&1") != 0) GTEST_SKIP() << "Xvfb or xdotool is not installed";
+  const ShotFolder folder(640, 480);
+  test::ffmpeg("-f lavfi -i color=gray:size=640x480:rate=25 -frames:v 4 -pix_fmt yuv420p -c:v ffv1 '" +
+               folder.file("in.mkv") + "'");
+  folder.write("scene.toml", "[plate]\nvideo = \"in.mkv\"\ncamera = \"camera.yml\"\n" + locked + cube);
+  const auto shader = [](const char* colour) {
+    return std::string("layout(location = 0) out vec4 fragment; void main() { fragment = vec4(") + colour + ", 1); }";
+  };
+  std::filesystem::create_directories(folder.path() / "s/pipeline/passes/toon");
+  folder.write("s/pipeline/passes/toon/toon.frag", shader("0, 1, 0"));
+  folder.write("blue.frag", shader("0, 0, 1"));
+  folder.write("wrong.frag", "void main() { this is no shader }");
+  const std::string shot =
+      "xdotool mousemove 32 24 key p; for k in $(seq 100); do [ -s rinkaku_00000$n.png ] && break; "
+      "sleep 0.1; done; ";
+  const CliResult result = on_a_screen(
+      folder,
+      "\"$RINKAKU\" play scene.toml --shaders s --no-panel --json >report 2>trouble & player=$!; "
+      "for i in $(seq 100); do xdotool search --name rinkaku >window 2>/dev/null && break; sleep 0.1; done; sleep 1.5; "
+      "n=1; " +
+          shot +
+          "for next in blue wrong; do cp $next.frag new; mv new s/pipeline/passes/toon/toon.frag; sleep 3; "
+          "n=$((n + 1)); " +
+          shot + "done; xdotool key q; wait $player");
+  ASSERT_EQ(result.status, 0) << result.err << text_of(folder / "trouble");
+  const auto middle = [&folder](int number) {
+    const Frame frame = folder.frames("rinkaku_00000" + std::to_string(number) + ".png").at(0);
+    return std::array{sample(frame, 0, 320, 240), sample(frame, 1, 320, 240), sample(frame, 2, 320, 240)};
+  };
+  const auto green = middle(1), blue = middle(2), after_wrong = middle(3);
+  EXPECT_GT(green[1], 200);
+  EXPECT_LT(green[2], 60);
+  EXPECT_GT(blue[2], 200);
+  EXPECT_LT(blue[1], 60);
+  EXPECT_EQ(after_wrong, blue);
+}
+
 }  // namespace
 }  // namespace rinkaku

@@ -105,6 +105,8 @@ void Panel::draw_transport(const SceneFile& file, const PanelFacts& facts, Panel
   wish.screenshot = ImGui::Button("screenshot");
   ImGui::SameLine();
   wish.save = ImGui::Button(file.unsaved() ? "save scene *" : "save scene");
+  int look = static_cast<int>(facts.look);
+  if (ImGui::Combo("view", &look, "picture\0mattes\0curvature\0")) wish.look = static_cast<Viewer::Look>(look);
   if (!facts.notice.empty()) ImGui::TextWrapped("%s", facts.notice.c_str());
 }
 

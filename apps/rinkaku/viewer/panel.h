@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,7 @@ struct PanelFacts {
   double fps = 0;                        ///< shown a second, lately
   double latency_ms = 0;                 ///< from the camera's stamp to the screen, lately; 0 for recordings
   bool paused = false, ended = false;
+  Viewer::Look look = Viewer::Look::Picture;
   std::string trouble;  ///< an error that the user should see; empty if there is none
   std::string notice;   ///< the last thing done, e.g. the screenshot's name
 };
@@ -28,6 +30,7 @@ struct PanelWish {
     std::string text;  ///< TOML
   };
   std::vector<Value> values;
+  std::optional<Viewer::Look> look;
   bool pause = false, step = false, restart = false, screenshot = false, save = false, full_screen = false;
 };
 

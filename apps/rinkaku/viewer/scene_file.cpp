@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "pipeline/files/pending_file.h"
+#include "pipeline/gl/shader_text.h"
 
 namespace rinkaku::app {
 namespace {
@@ -26,10 +27,27 @@ SceneFile::Effect effect_of(const std::vector<std::string>& changed, const pipel
   return only_drawn && draws ? SceneFile::Effect::Redraw : SceneFile::Effect::Restart;
 }
 
+// In the folder and those below it that aren't hidden, nor what a build made.
+std::vector<fs::path> shader_files(const fs::path& folder) {
+  std::vector<fs::path> found;
+  if (folder.empty()) return found;
+  std::error_code error;
+  for (fs::recursive_directory_iterator at(folder, error), end; !error && at != end; at.increment(error)) {
+    const std::string name = at->path().filename().string();
+    if (at->is_directory(error) && (name.starts_with('.') || name == "build")) at.disable_recursion_pending();
+    if (gl::is_shader_file(at->path())) found.push_back(at->path());
+  }
+  return found;
+}
+
 }  // namespace
 
-SceneFile::SceneFile(fs::path file, pipeline::SceneOptions options)
-    : file_(std::move(file)), options_(std::move(options)), text_(toml::read_text(file_)), saved_(text_) {
+SceneFile::SceneFile(fs::path file, pipeline::SceneOptions options, fs::path shaders)
+    : file_(std::move(file)),
+      shaders_(std::move(shaders)),
+      options_(std::move(options)),
+      text_(toml::read_text(file_)),
+      saved_(text_) {
   document_ = toml::parse_text(text_, file_);
   pipeline::SceneOptions with_text = options_;
   with_text.text = text_;
@@ -61,6 +79,11 @@ void SceneFile::remember_times() {
   add(file_, Effect::None);
   add(scene_.plate.camera, Effect::Restart);
   for (const pipeline::ObjectScene& object : scene_.objects) add(object.mesh, Effect::Redraw);
+  for (const fs::path& shader : shader_files(shaders_)) {
+    // Water is set up with the run, all else is made anew with the objects.
+    const bool of_water = *fs::relative(shader, shaders_).begin() == "water";
+    add(shader, of_water || scene_.objects.empty() ? Effect::Restart : Effect::Redraw);
+  }
 }
 
 SceneFile::Effect SceneFile::look() {

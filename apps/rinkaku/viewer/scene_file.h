@@ -13,8 +13,9 @@ namespace rinkaku::app {
 /// last seen to change. One thread.
 class SceneFile {
  public:
+  /// `shaders`: a folder of them that is looked at as well, see gl::use_shaders_from(); empty for none.
   /// Throws Error (Input) as read_scene() does.
-  SceneFile(std::filesystem::path file, pipeline::SceneOptions options);
+  SceneFile(std::filesystem::path file, pipeline::SceneOptions options, std::filesystem::path shaders = {});
 
   const pipeline::Scene& scene() const { return scene_; }
   const std::string& text() const { return text_; }
@@ -42,7 +43,7 @@ class SceneFile {
   Effect take(std::string text);
   void remember_times();
 
-  std::filesystem::path file_;
+  std::filesystem::path file_, shaders_;
   pipeline::SceneOptions options_;
   std::string text_, saved_;
   toml::Value document_;

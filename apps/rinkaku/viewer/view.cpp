@@ -182,6 +182,7 @@ void View::draw() {
   facts.ended = viewer_.playback().ended();
   facts.trouble = trouble_.empty() ? facts.status.trouble : trouble_;
   facts.notice = notice_;
+  facts.look = viewer_.look();
   const PanelWish wish = panel_->draw(file_, facts);
   window_->swap();
   if (fresh_) {
@@ -225,6 +226,7 @@ void View::obey(const PanelWish& wish) {
     }
   }
   if (wish.step) viewer_.playback().step();
+  if (wish.look) viewer_.look_at(*wish.look, file_.scene(), file_.text());
   if (wish.restart) apply(Effect::Restart);
   if (wish.full_screen) window_->toggle_full_screen();
   if (wish.screenshot) take_screenshot();
@@ -251,6 +253,9 @@ void View::obey_keys() {
       case Key::Step:
         viewer_.playback().step();
         break;
+      case Key::Look:
+        wish.look = static_cast<Viewer::Look>((static_cast<int>(viewer_.look()) + 1) % 3);
+        break;
       default:
         wish.pause |= key == Key::Pause;
         wish.full_screen |= key == Key::FullScreen;
@@ -264,7 +269,11 @@ void View::obey_keys() {
 
 void View::apply(Effect effect) {
   if (effect == Effect::Redraw && run_.running()) viewer_.change(file_.scene(), file_.text());
-  if (effect == Effect::Restart || (effect == Effect::Redraw && !run_.running())) run_.start(file_.scene());
+  if (effect == Effect::Restart || (effect == Effect::Redraw && !run_.running())) {
+    run_.start(file_.scene());
+    // A run begins with the scene's own colours.
+    if (viewer_.look() == Viewer::Look::Curvature) viewer_.change(file_.scene(), file_.text());
+  }
 }
 
 void View::look_at_files() {

@@ -3,6 +3,7 @@
 #include <chrono>
 #include <utility>
 
+#include "apps/rinkaku/viewer/matte_view.h"
 #include "pipeline/frame/error.h"
 
 namespace rinkaku::app {
@@ -79,13 +80,14 @@ void Viewer::refused(const std::string& why) {
 }
 
 void Viewer::finished(const pipeline::Work& work) {
+  Frame frame = look() == Look::Mattes ? matte_view(work, pool_) : work.frame;
   {
     std::unique_lock lock(mutex_);
     // A window that isn't drawn, e.g. minimised, must not stop the run for good.
     const auto taken = [this] { return !newest_ || letting_go_; };
     if (wait_for_window_) taken_.wait_for(lock, std::chrono::milliseconds(500), taken);
     if (newest_) ++status_.unshown;
-    newest_ = Shown{work.frame, work.stage_ms, work.pose.has_value()};
+    newest_ = Shown{std::move(frame), work.stage_ms, work.pose.has_value()};
   }
   woken_();
 }
@@ -103,9 +105,28 @@ std::optional<Viewer::Shown> Viewer::take_newest() {
 void Viewer::change(pipeline::Scene scene, std::string text) {
   {
     std::lock_guard lock(mutex_);
-    wish_ = Wish{std::move(scene), std::move(text)};
+    wish_ = Wish{std::move(scene), std::move(text), look_};
   }
   wanted_.notify_one();
+}
+
+void Viewer::look_at(Look look, pipeline::Scene scene, std::string text) {
+  bool repaint = false;
+  {
+    std::lock_guard lock(mutex_);
+    repaint = (look == Look::Curvature) != (look_ == Look::Curvature) && !scene.objects.empty();
+    look_ = look;
+  }
+  if (repaint) {
+    change(std::move(scene), std::move(text));
+  } else {
+    playback_.repeat();
+  }
+}
+
+Viewer::Look Viewer::look() const {
+  std::lock_guard lock(mutex_);
+  return look_;
 }
 
 void Viewer::prepare() {
@@ -119,7 +140,8 @@ void Viewer::prepare() {
     std::optional<Ready> ready;
     std::string trouble;
     try {
-      pipeline::PreparedObjects objects = pipeline::prepare_objects(wish.scene);
+      const auto paint = wish.look == Look::Curvature ? pipeline::Paint::Curvature : pipeline::Paint::Scene;
+      pipeline::PreparedObjects objects = pipeline::prepare_objects(wish.scene, paint);
       ready.emplace(Ready{{std::move(wish.scene), std::move(objects)}, std::move(wish.text)});
     } catch (const std::exception& error) {
       trouble = error.what();

@@ -34,6 +34,13 @@ class Viewer final : public pipeline::Watcher {
   void drawn(const pipeline::Work& work) override;
   void finished(const pipeline::Work& work) override;
 
+  /// What the window shows.
+  enum class Look {
+    Picture,
+    Mattes,     ///< see matte_view()
+    Curvature,  ///< the picture, with objects painted with their curvature; it goes into recordings as well
+  };
+
   /// A finished frame, once.
   struct Shown {
     Frame frame;
@@ -50,6 +57,9 @@ class Viewer final : public pipeline::Watcher {
   /// Draws this scene as soon as its objects are prepared, which another thread does; only the newest counts. `text` is
   /// its scene file's.
   void change(pipeline::Scene scene, std::string text);
+  /// Shows it in another way from now on. `scene` and `text` as they are.
+  void look_at(Look look, pipeline::Scene scene, std::string text);
+  Look look() const;
 
   struct Status {
     std::vector<std::string> stages;  ///< of Shown::stage_ms
@@ -80,11 +90,14 @@ class Viewer final : public pipeline::Watcher {
   struct Wish {
     pipeline::Scene scene;
     std::string text;
+    Look look = Look::Picture;
   };
   struct Ready {
     pipeline::SceneChange change;
     std::string text;
   };
+  Look look_ = Look::Picture;
+  FramePool pool_;
   std::optional<Wish> wish_;
   std::optional<Ready> ready_;
   struct SessionPlan {
