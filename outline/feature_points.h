@@ -19,7 +19,7 @@ struct FeaturePointOptions {
   enum class By { Degrees, K95 } by = By::K95;
   double concave = 1;  ///< A; 0 in K95, or 0 degrees: no concave features
   double convex = 1;   ///< B; 0 in K95, or 360 degrees: no convex features
-  int comparison = 1;    ///< more neighbours than this must pass
+  int comparison = 1;  ///< more neighbours than this must pass
 };
 
 /// Feature points after chapter 3 of Matsuo's thesis on exaggerated outlines (equations 3.1 to 3.4).

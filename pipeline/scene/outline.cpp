@@ -77,9 +77,10 @@ void read_curvature_width(const Table& outline, OutlineScene& scene) {
 }  // namespace
 
 toml::Schema outline_schema() {
-  toml::Section outline{.path = "object.outline",
-                        .keys = {"width_px", "width_m", "min_px", "max_px", "taper_px", "colour", "method", "curvature",
-                                 "sign", "exaggeration", "saturation", "curve", "min_factor", "smoothing", "control", "weight"}};
+  toml::Section outline{
+      .path = "object.outline",
+      .keys = {"width_px", "width_m", "min_px", "max_px", "taper_px", "colour", "method", "curvature", "sign",
+               "exaggeration", "saturation", "curve", "min_factor", "smoothing", "control", "weight"}};
   for (const std::string_view key : line_style_keys()) outline.keys.push_back(key);
   toml::Schema schema{std::move(outline)};
   for (toml::Section& section : line_style_schema()) schema.push_back(std::move(section));

@@ -233,6 +233,25 @@ TEST(Scene, TakesControlPoints) {
   EXPECT_EQ(printed.control.features.convex, 360) << "no convex features unless asked for";
 }
 
+TEST(Scene, TakesWhatLinesWeigh) {
+  const SceneFolder folder;
+  EXPECT_FALSE(folder.read(object + "outline = true\n").objects[0].outline->weight.any());
+  std::ofstream(folder / "thick.png") << "not looked into yet";
+  const LineWeightScene weight =
+      folder
+          .read(object +
+                "outline = { weight = { shade = 1.5, paint = \"alpha\", map = \"thick.png\", "
+                "material = [{ name = \"skin\", factor = 0.5 }, { name = \"hair\", factor = 2 }] } }\n")
+          .objects[0]
+          .outline->weight;
+  EXPECT_EQ(weight.shade, 1.5);
+  EXPECT_EQ(weight.paint, 3);
+  EXPECT_EQ(weight.map.filename(), "thick.png");
+  ASSERT_EQ(weight.materials.size(), 2u);
+  EXPECT_EQ(weight.materials[1].name, "hair");
+  EXPECT_EQ(weight.materials[1].factor, 2);
+}
+
 TEST(Scene, PlaysAnimations) {
   const SceneFolder folder;
   EXPECT_FALSE(folder.read(object).objects[0].animation);
