@@ -357,10 +357,11 @@ INSTANTIATE_TEST_SUITE_P(
         BadScene{"WeightOfAPicture", object + "outline = { method = \"silhouette\", weight = { shade = 1 } }\n",
                  "DIR/scene.toml:8:45: 'weight' in outline of [[object]] goes with method = \"uniform\", "
                  "\"curvature\", \"control\", \"z_lines\" or \"hidden_lines\"; choose one of these, or leave it out"},
-        BadScene{"WeightOfAMaterialTwice",
-                 object + "outline = { weight = { material = [{ name = \"a\", factor = 1 }, { name = \"a\", factor = "
-                          "2 }] } }\n",
-                 "DIR/scene.toml:8:74: 'name' in [[object.outline.weight.material]] is given twice; leave one out"},
+        BadScene{
+            "WeightOfAMaterialTwice",
+            object + "outline = { weight = { material = [{ name = \"a\", factor = 1 }, { name = \"a\", factor = "
+                     "2 }] } }\n",
+            "DIR/scene.toml:8:73: 'name' in material of weight of outline of [[object]] is given twice; leave one out"},
         BadScene{"UnknownSign", object + "outline = { method = \"curvature\", sign = \"thick\" }\n",
                  "DIR/scene.toml:8:42: 'sign' in outline of [[object]] must be \"magnitude\", \"convex\" or "
                  "\"concave\", found the text \"thick\""}),
