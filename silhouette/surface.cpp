@@ -3,9 +3,12 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include <xxhash.h>
+
+#include <glm/geometric.hpp>
 
 #include "mesh/bounds.h"
 #include "pipeline/frame/error.h"
@@ -119,6 +122,18 @@ std::vector<std::uint32_t> full_list(const Surface& surface) {
     if (surface.two_sided[t]) out.insert(out.end(), {v.x, v.z, v.y});
   }
   return out;
+}
+
+double least_radius_px(const Surface& surface) {
+  constexpr double least_edge_px = 8.0 / 256;
+  double edges = 0;
+  for (const glm::uvec3& t : surface.triangles) {
+    for (int k = 0; k < 3; ++k) {
+      edges += static_cast<double>(glm::distance(surface.points[t[k]], surface.points[t[(k + 1) % 3]]));
+    }
+  }
+  const double mean_edge = edges / (3 * static_cast<double>(surface.triangles.size()) * surface.frame.radius);
+  return mean_edge > 0 ? least_edge_px / mean_edge : std::numeric_limits<double>::infinity();
 }
 
 }  // namespace rinkaku::silhouette

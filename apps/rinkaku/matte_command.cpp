@@ -40,6 +40,13 @@ Chosen region_list(const MatteCall& call, const silhouette::Surface& surface, co
   return chosen;
 }
 
+bool is_too_far(const MatteCall& call, const silhouette::Surface& surface, const glm::dvec3& eye) {
+  const double radius = surface.frame.radius;
+  const CameraModel camera = silhouette::camera_of(parse_size("--size", call.size), call.fov_deg * M_PI / 180);
+  const double radius_px = camera.fx_px * radius / (glm::distance(eye, surface.frame.centre) + radius);
+  return radius_px < silhouette::least_radius_px(surface);
+}
+
 Chosen choose(const MatteCall& call, const silhouette::Surface& surface, const glm::dvec3& eye) {
   Chosen chosen;
   const std::vector<std::uint32_t> full = silhouette::full_list(surface);
@@ -51,7 +58,7 @@ Chosen choose(const MatteCall& call, const silhouette::Surface& surface, const g
     chosen.indices.assign(facing.begin(), facing.end());
   } else if (call.method == "region") {
     chosen = region_list(call, surface, eye);
-    if (!chosen.region) chosen.indices = full;  // as at run time
+    if (!chosen.region || is_too_far(call, surface, eye)) chosen.indices = full;  // as at run time
   } else {
     auto triangles = static_cast<std::size_t>(call.triangles);
     if (triangles == 0) {

@@ -22,6 +22,7 @@ nlohmann::json to_json(const silhouette::VerifyReport& report) {
     mismatches.push_back({{"eye", m.eye}, {"pixels", m.pixels}, {"view", m.description}});
   }
   return {{"eyes", report.eyes},
+          {"eyes_too_far", report.eyes_too_far},
           {"eyes_with_edges", report.eyes_with_edges},
           {"mismatch_px_max", report.mismatch_px_max},
           {"mismatch_px_total", report.mismatch_px_total},
@@ -35,8 +36,11 @@ nlohmann::json to_json(const silhouette::VerifyReport& report) {
 }
 
 void print(const silhouette::VerifyReport& report) {
-  std::printf("%llu eyes, %llu of them with a silhouette in the picture\n",
-              static_cast<unsigned long long>(report.eyes), static_cast<unsigned long long>(report.eyes_with_edges));
+  std::printf(
+      "%llu eyes, %llu of them with a silhouette in the picture; %llu more are so far off that the mesh is drawn "
+      "whole\n",
+      static_cast<unsigned long long>(report.eyes), static_cast<unsigned long long>(report.eyes_with_edges),
+      static_cast<unsigned long long>(report.eyes_too_far));
   std::printf("%lld pixels differ in %zu eyes, at most %lld in one\n", static_cast<long long>(report.mismatch_px_total),
               report.mismatches.size(), static_cast<long long>(report.mismatch_px_max));
   std::printf("%.1f %% of the triangles on average\n", report.triangles_mean_ratio * 100);

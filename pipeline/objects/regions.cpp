@@ -113,7 +113,8 @@ bool are_apart(const PlacedBox& a, const PlacedBox& b) {
 passes::RegionKnowledge region_knowledge(const ObjectScene& object, const mesh::Mesh& mesh, bool apart,
                                          const RegionOptions& options) {
   const mesh::Topology topology = mesh::topology(mesh);
-  auto read = read_or_bake(object, silhouette::make_surface(mesh, topology), options);
+  const silhouette::Surface surface = silhouette::make_surface(mesh, topology);
+  auto read = read_or_bake(object, surface, options);
   if (!read) return {};
   const auto file = std::make_shared<const RegionFile>(std::move(*read));
   passes::RegionKnowledge known;
@@ -136,6 +137,7 @@ passes::RegionKnowledge region_knowledge(const ObjectScene& object, const mesh::
   silhouette::RegionListsOptions to_draw;
   to_draw.decode_at_once = options.wait_for_lists;
   const auto lists = std::make_shared<silhouette::RegionLists>(file, decode, to_draw);
+  known.least_px_per_unit = silhouette::least_radius_px(surface) / surface.frame.radius;
   known.cover = [lists](const glm::dvec3& eye) { return lists->at(eye).indices; };
   return known;
 }

@@ -170,7 +170,7 @@ const Look& ObjectShape::look(const View& view, const PixelRect& picture) {
     // The level's error is of the kind of a mean, so allow for more.
     look_.overlap_px = 1.5f;
   }
-  if (known_.cover) take_cover(eye);
+  if (known_.cover) take_cover(view, eye);
   strips_->collect(contour, vertices_);
   look_.to_pixels = to_pixels;
   look_.contour_pieces = strips_->pieces();
@@ -240,7 +240,8 @@ void ObjectShape::list_front(const mesh::Contour& found, bool split) {
 }
 
 // What covers the same pixels, where it is less than what was found.
-void ObjectShape::take_cover(const glm::dvec3& eye) {
+void ObjectShape::take_cover(const View& view, const glm::dvec3& eye) {
+  if (view.camera.fx_px * largest_scale_ / look_.farthest_m < known_.least_px_per_unit) return;
   const std::span<const std::uint32_t> cover = known_.cover(eye);
   if (cover.empty() || cover.size() >= look_.front.size()) return;
   look_.front = cover;

@@ -32,6 +32,7 @@ struct RegionKnowledge {
   /// Vertex indices of triangles that cover the same pixels as the whole mesh, to be drawn with back faces culled;
   /// empty: unknown. Only for objects whose inside doesn't show: of one flat colour, or holdouts.
   std::function<std::span<const std::uint32_t>(const glm::dvec3& eye)> cover;
+  double least_px_per_unit = 0;  ///< `cover` holds where one of the mesh's units takes so many pixels
 };
 
 /// What one frame's eye sees of an object. The spans live until the next look.
@@ -115,7 +116,7 @@ class ObjectShape {
   mesh::ContourFinder* finder_for(const View& view);
   mesh::ContourFinder* level_finder(std::size_t level);
   void list_front(const mesh::Contour& found, bool split);
-  void take_cover(const glm::dvec3& eye);
+  void take_cover(const View& view, const glm::dvec3& eye);
   void collect_vertices(const mesh::Mesh& mesh, const mesh::Topology& topology);
 
   glm::dmat4 world_from_object_;

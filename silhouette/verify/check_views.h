@@ -19,6 +19,7 @@ struct CheckView {
   std::uint32_t region = 0;
   glm::dmat4 world_from_object{1};
   passes::View view;
+  double radius_px = 0;     ///< that the unit frame's radius takes in the picture, at most
   std::string description;  ///< for messages: where the eye is, how the object is placed, which camera
 };
 

@@ -37,8 +37,15 @@ VerifyReport verify(const RegionFile& file, const Surface& surface, const Verify
   Times times;
   std::vector<std::uint32_t> indices;
   double ratios = 0;
-  for (std::uint64_t eye = 0; eye < options.eyes && !(stop != nullptr && *stop); ++eye) {
+  const double least_px = least_radius_px(surface);
+  for (std::uint64_t eye = 0; report.eyes < options.eyes && !(stop != nullptr && *stop); ++eye) {
     const CheckView view = views.view(eye);
+    if (view.radius_px < least_px) {
+      ++report.eyes_too_far;
+      // Should a mesh be so fine that hardly any eye is near enough, there is an end all the same.
+      if (report.eyes_too_far > 10 * options.eyes) break;
+      continue;
+    }
     file.decode(view.region, Product::Matte, indices);
     const MatteDifference difference = comparison.compare(view, indices);
     ++report.eyes;
@@ -48,7 +55,7 @@ VerifyReport verify(const RegionFile& file, const Surface& surface, const Verify
     if (difference.mismatch_px > 0) report.mismatches.push_back({eye, difference.mismatch_px, view.description});
     ratios += static_cast<double>(indices.size()) / static_cast<double>(comparison.full_indices().size());
     times.add(difference);
-    if (progress) progress(eye + 1, options.eyes);
+    if (progress) progress(report.eyes, options.eyes);
   }
   report.triangles_mean_ratio = report.eyes > 0 ? ratios / static_cast<double>(report.eyes) : 0;
   report.draw_ms_full = median(times.full);

@@ -13,7 +13,7 @@
 namespace rinkaku::silhouette {
 
 struct VerifyOptions {
-  std::uint64_t eyes = 2000;
+  std::uint64_t eyes = 2000;  ///< to compare
   CheckViewOptions views;
 };
 
@@ -25,7 +25,8 @@ struct Mismatch {
 };
 
 struct VerifyReport {
-  std::uint64_t eyes = 0;
+  std::uint64_t eyes = 0;             ///< compared
+  std::uint64_t eyes_too_far = 0;     ///< not compared: there the whole surface is drawn, see least_radius_px()
   std::uint64_t eyes_with_edges = 0;  ///< in whose mattes there is a silhouette to get wrong
   std::int64_t mismatch_px_max = 0;
   std::int64_t mismatch_px_total = 0;
