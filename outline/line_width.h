@@ -8,6 +8,7 @@
 
 #include "mesh/topology.h"
 #include "outline/curvature.h"
+#include "outline/ring_smoothing.h"
 #include "outline/width_options.h"
 
 namespace rinkaku::outline {
@@ -43,19 +44,11 @@ class CurvatureWidths {
   void at(std::span<const glm::vec3> points, std::span<const std::uint32_t> wanted, std::span<float> factors);
 
  private:
-  void grow(std::span<const std::uint32_t> wanted);
-  void smooth(std::span<const std::uint32_t> of);
-
   WidthOptions options_;
   CurvatureSolver solver_;
   double k95_ = 0;
-  std::vector<std::uint32_t> first_neighbour_, neighbours_;  // per point its run, and the end
-  std::vector<float> factors_, smoothed_;
-  std::vector<std::uint32_t> all_;
-  // The wanted points, then their neighbours, and so on, as far as smoothing reaches; and where each ring ends.
-  std::vector<std::uint32_t> rings_, ring_ends_;
-  std::vector<std::uint32_t> seen_at_;  // per point: by which call
-  std::uint32_t call_ = 0;
+  RingSmoothing smoothing_;
+  std::vector<float> factors_;
 };
 
 }  // namespace rinkaku::outline

@@ -151,6 +151,14 @@ Verdict merge(const Facts& f) {
                              : "what was filmed goes before the background"};
 }
 
+Verdict control_points(const Facts& f) {
+  if (!f.draws()) return {false, no_object};
+  const std::size_t n =
+      f.count([](const ObjectScene& o) { return o.outline && o.outline->method == OutlineScene::Method::Control; });
+  if (n == 0) return {false, "no line's width follows control points"};
+  return {true, "the line's width follows feature and control points of " + objects(n)};
+}
+
 Verdict fluffy(const Facts& f) {
   if (!f.draws()) return {false, no_object};
   const std::size_t n = f.count([](const ObjectScene& o) { return o.fluffy.has_value(); });
@@ -238,7 +246,8 @@ const std::vector<Kind>& kinds() {
       {"regions", regions, {"import"}},
       {"curvature", curvature, {"import", "animate"}},
       {"line-targets", line_targets, {"import"}},
-      {"outline", outline, {"import", "curvature", "line-targets"}},
+      {"control-points", control_points, {"import", "animate"}},
+      {"outline", outline, {"import", "curvature", "control-points", "line-targets"}},
       {"fluffy", fluffy, {"import"}},
       {"water", water, {"decode", "track", "smooth"}},
       {"draw",

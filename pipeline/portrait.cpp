@@ -113,7 +113,8 @@ Frame portrait(const mesh::Mesh& mesh, const PortraitOptions& options) {
     styled.passes.push_back(std::make_unique<passes::ToonPass>(*styled.object, mesh, toon));
     if (options.outline) {
       std::vector<float> factors;
-      add_outline(styled, mesh, *options.outline, line_style(mesh, *options.outline, false, factors));
+      add_outline(styled, mesh, *options.outline,
+                  line_style(mesh, *options.outline, {.world_from_object = world_from_mesh}, factors));
     }
     std::vector<passes::StyledObject> objects;
     objects.push_back(std::move(styled));

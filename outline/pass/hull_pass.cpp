@@ -8,6 +8,12 @@
 #include "embedded/hull.vert.h"
 
 namespace rinkaku::outline {
+namespace {
+
+// What is added to the base line leans back by so many pixels a pixel.
+constexpr float kLeanBack = 3;
+
+}  // namespace
 
 HullPass::HullPass(passes::DrawnObject& object, const HullOptions& options) : object_(object), options_(options) {
   object_.ask_for_lines(options.style);
@@ -19,6 +25,8 @@ HullPass::HullPass(passes::DrawnObject& object, const HullOptions& options) : ob
   viewport_px_ = program_.uniform("viewport_px");
   width_px_ = program_.uniform("width_px");
   soft_ = program_.uniform("soft");
+  beyond_ = program_.uniform("beyond");
+  back_ = program_.uniform("back");
   if (options_.width_m <= 0) options_.least_px = options_.most_px = options_.width_px;
   const GLuint name = program_.name();
   glProgramUniform2f(name, program_.uniform("width_limits_px"), options_.least_px, options_.most_px);
@@ -47,11 +55,17 @@ void HullPass::draw_edges(const passes::DrawCall& call) {
   const bool metres = options_.width_m > 0;
   glUniform2f(width_px_, metres ? 0 : options_.width_px,
               metres ? static_cast<float>(call.view.camera.fx_px) * options_.width_m : 0);
-  // Only what is opaque hides what is behind it: lines that cross keep no holes along their soft rims.
-  for (const bool soft : {false, true}) {
-    glUniform1i(soft_, soft ? 1 : 0);
-    glDepthMask(soft ? GL_FALSE : GL_TRUE);
-    glDrawElements(GL_TRIANGLES, count, GL_UNSIGNED_INT, nullptr);
+  glUniform1f(back_, kLeanBack / static_cast<float>(call.view.camera.fx_px));
+  // The base line first, as it is the nearer.
+  for (const bool beyond : {false, true}) {
+    if (beyond && object_.shape().largest_line_factor() <= 1) break;
+    glUniform1i(beyond_, beyond ? 1 : 0);
+    // Only what is opaque hides what is behind it: lines that cross keep no holes along their soft rims.
+    for (const bool soft : {false, true}) {
+      glUniform1i(soft_, soft ? 1 : 0);
+      glDepthMask(soft ? GL_FALSE : GL_TRUE);
+      glDrawElements(GL_TRIANGLES, count, GL_UNSIGNED_INT, nullptr);
+    }
   }
 }
 

@@ -18,6 +18,7 @@
 #include "pipeline/objects/animated.h"
 #include "pipeline/objects/fluff.h"
 #include "pipeline/objects/in_parallel.h"
+#include "pipeline/objects/line_weights.h"
 #include "pipeline/objects/outline_passes.h"
 #include "pipeline/objects/placement.h"
 #include "pipeline/passes/holdout/holdout_pass.h"
@@ -71,6 +72,7 @@ void paint_with_curvature(mesh::Mesh& mesh) {
 }
 
 PreparedObject prepare(mesh::Imported imported, const ObjectScene& object, const LightScene& light, Paint paint) {
+  const std::vector<float> weights = line_weights(object, imported.mesh);
   give_colour(imported.mesh, object);
   const bool painted = paint == Paint::Curvature && !object.holdout;
   if (painted) paint_with_curvature(imported.mesh);
@@ -84,7 +86,9 @@ PreparedObject prepare(mesh::Imported imported, const ObjectScene& object, const
   }
   std::vector<float> factors;
   passes::LineStyle line;
-  if (object.outline) line = line_style(mesh, *object.outline, object.animation.has_value(), factors);
+  if (object.outline) {
+    line = line_style(mesh, *object.outline, {place, light.direction, weights, object.animation.has_value()}, factors);
+  }
   std::optional<Fluff> fluff;
   if (object.fluffy) fluff = prepare_fluff(object, mesh, place);
   if (object.fluffy && object.outline) thin_line_under_fluff(line, factors, object, mesh);

@@ -3,9 +3,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <utility>
 
+#include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
 
 #include "mesh/bounds.h"
@@ -17,6 +21,7 @@
 #include "outline/styles/inverted_hull_pass.h"
 #include "outline/styles/picture_lines_pass.h"
 #include "outline/styles/stroke_pass.h"
+#include "pipeline/objects/control_line.h"
 #include "pipeline/objects/drawn_lines_file.h"
 #include "pipeline/objects/texture_file.h"
 
@@ -153,6 +158,82 @@ std::unique_ptr<passes::ObjectPass> inner_lines(passes::DrawnObject& object, con
   return std::make_unique<outline::StrokePass>(object, mesh, mesh::topology(mesh), options);
 }
 
+outline::WidthOptions width_options(const OutlineScene& line) {
+  outline::WidthOptions options;
+  options.kind = line.curvature;
+  options.sign = line.sign;
+  options.exaggeration = static_cast<float>(line.exaggeration);
+  options.saturation = static_cast<float>(line.saturation);
+  options.curve = static_cast<float>(line.curve);
+  options.least = static_cast<float>(line.min_factor);
+  options.smoothing = line.smoothing;
+  return options;
+}
+
+// A line that neither curvature nor control points make uneven, in the form of those that they do.
+class EvenWidths {
+ public:
+  explicit EvenWidths(std::size_t points) : ones_(points, 1.0f) {}
+  std::span<const float> at(std::span<const glm::vec3>) const { return ones_; }
+  void at(std::span<const glm::vec3>, std::span<const std::uint32_t> wanted, std::span<float> factors) const {
+    for (const std::uint32_t p : wanted) factors[p] = 1;
+  }
+
+ private:
+  std::vector<float> ones_;
+};
+
+// What the scene multiplies widths by, whatever the method.
+class Weight {
+ public:
+  Weight(const LineWeightScene& scene, const LineSurroundings& around)
+      : weights_(around.weights.begin(), around.weights.end()),
+        shade_(static_cast<float>(scene.shade)),
+        world_from_normal_(glm::transpose(glm::inverse(glm::dmat3(around.world_from_object)))),
+        light_(glm::normalize(around.light)) {}
+
+  float most() const {
+    return (1 + shade_) * (weights_.empty() ? 1.0f : *std::max_element(weights_.begin(), weights_.end()));
+  }
+  void apply(std::span<const glm::vec3> normals, std::span<float> factors) const {
+    for (std::uint32_t p = 0; p < factors.size(); ++p) factors[p] *= at(p, normals);
+  }
+  /// At some points, of which some are named several times.
+  void apply(std::span<const glm::vec3> normals, std::span<const std::uint32_t> wanted, std::span<float> factors) {
+    if (weights_.empty() && shade_ == 0) return;
+    const std::span<const std::uint32_t> once = distinct(wanted, factors.size());
+    for (const std::uint32_t p : once) factors[p] *= at(p, normals);
+  }
+
+ private:
+  float at(std::uint32_t p, std::span<const glm::vec3> normals) const {
+    const float painted = weights_.empty() ? 1.0f : weights_[p];
+    if (shade_ == 0) return painted;
+    const glm::vec3 normal = world_from_normal_ * normals[p];
+    const float length = glm::length(normal);
+    const float lit = length > 0 ? glm::dot(normal, light_) / length : 0.0f;
+    return painted * (1 + shade_ * (1 - lit) / 2);
+  }
+  std::span<const std::uint32_t> distinct(std::span<const std::uint32_t> wanted, std::size_t points) {
+    seen_.resize(points, 0);
+    ++call_;
+    once_.clear();
+    once_.reserve(points);
+    for (const std::uint32_t p : wanted) {
+      if (seen_[p] != call_) once_.push_back(p);
+      seen_[p] = call_;
+    }
+    return once_;
+  }
+
+  std::vector<float> weights_;
+  float shade_;
+  glm::mat3 world_from_normal_;
+  glm::vec3 light_;
+  std::vector<std::uint32_t> seen_, once_;  // per point: by which call
+  std::uint32_t call_ = 0;
+};
+
 }  // namespace
 
 void add_outline(passes::StyledObject& styled, const mesh::Mesh& mesh, const OutlineScene& line,
@@ -164,6 +245,7 @@ void add_outline(passes::StyledObject& styled, const mesh::Mesh& mesh, const Out
   switch (line.method) {
     case M::Uniform:
     case M::Curvature:
+    case M::Control:
     case M::ZLines:
       under = hull(object, line, style);
       break;
@@ -201,28 +283,34 @@ void add_outline(passes::StyledObject& styled, const mesh::Mesh& mesh, const Out
   if (under) styled.passes.push_back(std::move(under));
 }
 
-passes::LineStyle line_style(const mesh::Mesh& mesh, const OutlineScene& line, bool moves,
+passes::LineStyle line_style(const mesh::Mesh& mesh, const OutlineScene& line, const LineSurroundings& around,
                              std::vector<float>& factors) {
   passes::LineStyle style;
   style.taper_px = static_cast<float>(line.taper_px);
-  if (line.method != M::Curvature) return style;
-  outline::WidthOptions options;
-  options.kind = line.curvature;
-  options.sign = line.sign;
-  options.exaggeration = static_cast<float>(line.exaggeration);
-  options.saturation = static_cast<float>(line.saturation);
-  options.curve = static_cast<float>(line.curve);
-  options.least = static_cast<float>(line.min_factor);
-  options.smoothing = line.smoothing;
+  const bool follows = line.method == M::Curvature || line.method == M::Control;
+  if (!follows && !line.weight.any()) return style;
   const mesh::Topology topology = mesh::topology(mesh);
-  const auto widths = std::make_shared<outline::CurvatureWidths>(topology, options);
-  if (moves) {
-    style.most_factor = 1 + options.exaggeration;
-    style.follow = [widths](const passes::LineStyle::Moved& now) { widths->at(now.points, now.wanted, now.factors); };
-  } else {
+  const auto weight = std::make_shared<Weight>(line.weight, around);
+  const auto follow = [&](auto widths) {
+    if (around.moves) {
+      style.most_factor = (follows ? 1 + static_cast<float>(line.exaggeration) : 1.0f) * weight->most();
+      style.follow = [widths, weight](const passes::LineStyle::Moved& now) {
+        widths->at(now.points, now.wanted, now.factors);
+        weight->apply(now.outline_normals, now.wanted, now.factors);
+      };
+      return;
+    }
     const std::span<const float> found = widths->at(topology.points);
     factors.assign(found.begin(), found.end());
+    weight->apply(topology.outline_normals, factors);
     style.factors = factors;
+  };
+  if (line.method == M::Curvature) {
+    follow(std::make_shared<outline::CurvatureWidths>(topology, width_options(line)));
+  } else if (line.method == M::Control) {
+    follow(std::make_shared<outline::ControlWidths>(control_widths(line, topology, around.world_from_object)));
+  } else {
+    follow(std::make_shared<EvenWidths>(topology.points.size()));
   }
   return style;
 }

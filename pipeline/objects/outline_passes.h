@@ -1,6 +1,10 @@
 #pragma once
 
+#include <span>
 #include <vector>
+
+#include <glm/mat4x4.hpp>
+#include <glm/vec3.hpp>
 
 #include "mesh/mesh.h"
 #include "pipeline/passes/layer_renderer.h"
@@ -16,7 +20,13 @@ void add_outline(passes::StyledObject& styled, const mesh::Mesh& mesh, const Out
 
 /// What varies along an object's line: how it ends, and how it follows the shape, found once in `factors` (per welded
 /// point of the mesh, empty where it is even), or in every frame if the object moves. No GL.
-passes::LineStyle line_style(const mesh::Mesh& mesh, const OutlineScene& outline, bool moves,
+struct LineSurroundings {
+  glm::dmat4 world_from_object{1};
+  glm::dvec3 light{0, 0, 1};         ///< towards the light, in the world; need not be of unit length
+  std::span<const float> weights{};  ///< what line_weights() gave
+  bool moves = false;
+};
+passes::LineStyle line_style(const mesh::Mesh& mesh, const OutlineScene& outline, const LineSurroundings& around,
                              std::vector<float>& factors);
 
 }  // namespace rinkaku::pipeline

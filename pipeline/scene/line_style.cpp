@@ -23,7 +23,8 @@ constexpr NamedMethod kMethods[] = {{"uniform", M::Uniform},
                                     {"facing", M::Facing},
                                     {"isophote", M::Isophote},
                                     {"wobble", M::Wobble},
-                                    {"strokes", M::Strokes}};
+                                    {"strokes", M::Strokes},
+                                    {"control", M::Control}};
 
 // A key, and the methods that have it.
 struct KeyOf {
@@ -96,15 +97,15 @@ std::string_view word_for(LineMethod method) {
 }
 
 bool follows_edges(LineMethod method) {
-  return method == M::Uniform || method == M::Curvature || method == M::ZLines || method == M::HiddenLines ||
-         method == M::Isophote || method == M::Wobble || method == M::Strokes;
+  return method == M::Uniform || method == M::Curvature || method == M::Control || method == M::ZLines ||
+         method == M::HiddenLines || method == M::Isophote || method == M::Wobble || method == M::Strokes;
 }
 
 bool brings_inner_lines(LineMethod method) { return method == M::ZLines || method == M::HiddenLines; }
 
 double usual_taper_px(LineMethod method) {
   if (method == M::Wobble) return 6;
-  return method == M::Curvature || method == M::Isophote || method == M::Strokes ? 15 : 0;
+  return method == M::Curvature || method == M::Control || method == M::Isophote || method == M::Strokes ? 15 : 0;
 }
 
 bool needs_own_targets(LineMethod method) {

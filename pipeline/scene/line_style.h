@@ -25,6 +25,7 @@ enum class LineMethod {
   Isophote,
   Wobble,
   Strokes,
+  Control,
 };
 
 /// A method and its word in the scene file.

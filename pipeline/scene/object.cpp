@@ -44,9 +44,11 @@ void refuse_for_animated(const Table& object, const ObjectScene& scene) {
   }
   if (!scene.outline) return;
   const LineMethod method = scene.outline->method;
-  if ((method != LineMethod::Uniform && method != LineMethod::Curvature) || scene.outline->style.inner) {
+  const bool follows =
+      method == LineMethod::Uniform || method == LineMethod::Curvature || method == LineMethod::Control;
+  if (!follows || scene.outline->style.inner) {
     throw object.error_at("outline", "has lines that need a mesh that stands still, but the object has 'animation'",
-                          "take the method \"uniform\" or \"curvature\", without inner lines");
+                          "take the method \"uniform\", \"curvature\" or \"control\", without inner lines");
   }
 }
 

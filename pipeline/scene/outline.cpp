@@ -43,12 +43,20 @@ void read_width(const Table& outline, OutlineScene& scene) {
 
 void read_curvature_width(const Table& outline, OutlineScene& scene) {
   using O = OutlineScene;
-  for (const std::string_view key :
-       {"curvature", "sign", "exaggeration", "saturation", "curve", "min_factor", "smoothing"}) {
+  for (const std::string_view key : {"curvature", "sign", "saturation", "curve", "min_factor"}) {
     if (outline.has(key) && scene.method != O::Method::Curvature) {
       throw outline.error_at(key, "goes with method = \"curvature\"", "add that, or leave it out");
     }
   }
+  for (const std::string_view key : {"exaggeration", "smoothing"}) {
+    if (outline.has(key) && scene.method != O::Method::Curvature && scene.method != O::Method::Control) {
+      throw outline.error_at(key, "goes with method = \"curvature\" or \"control\"", "add that, or leave it out");
+    }
+  }
+  if (outline.has("control") && scene.method != O::Method::Control) {
+    throw outline.error_at("control", "goes with method = \"control\"", "add that, or leave it out");
+  }
+  scene.control = read_control(outline);
   scene.curvature = read_choice<O::Curvature>(outline, "curvature",
                                               {{"mean", O::Curvature::Mean},
                                                {"gauss", O::Curvature::Gauss},
@@ -69,12 +77,15 @@ void read_curvature_width(const Table& outline, OutlineScene& scene) {
 }  // namespace
 
 toml::Schema outline_schema() {
-  toml::Section outline{.path = "object.outline",
-                        .keys = {"width_px", "width_m", "min_px", "max_px", "taper_px", "colour", "method", "curvature",
-                                 "sign", "exaggeration", "saturation", "curve", "min_factor", "smoothing"}};
+  toml::Section outline{
+      .path = "object.outline",
+      .keys = {"width_px", "width_m", "min_px", "max_px", "taper_px", "colour", "method", "curvature", "sign",
+               "exaggeration", "saturation", "curve", "min_factor", "smoothing", "control", "weight"}};
   for (const std::string_view key : line_style_keys()) outline.keys.push_back(key);
   toml::Schema schema{std::move(outline)};
   for (toml::Section& section : line_style_schema()) schema.push_back(std::move(section));
+  for (toml::Section& section : line_weight_schema()) schema.push_back(std::move(section));
+  for (toml::Section& section : control_schema()) schema.push_back(std::move(section));
   return schema;
 }
 
@@ -84,6 +95,7 @@ std::optional<OutlineScene> read_outline(const Table& object) {
     read_method(*outline, scene);
     read_width(*outline, scene);
     read_curvature_width(*outline, scene);
+    scene.weight = read_line_weight(*outline, scene.method);
     scene.style = read_line_style(*outline, scene.method);
     scene.taper_px = outline->number("taper_px", {0, 1000}).value_or(usual_taper_px(scene.method));
     scene.colour = read_colour(*outline, "colour").value_or(scene.colour);

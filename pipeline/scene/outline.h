@@ -4,7 +4,9 @@
 #include <optional>
 
 #include "outline/width_options.h"
+#include "pipeline/scene/control.h"
 #include "pipeline/scene/line_style.h"
+#include "pipeline/scene/line_weight.h"
 #include "pipeline/toml/table.h"
 
 namespace rinkaku::pipeline {
@@ -25,11 +27,13 @@ struct OutlineScene {
   using Sign = outline::CurvatureSign;
   Curvature curvature = Curvature::Mean;
   Sign sign = Sign::Magnitude;
-  double exaggeration = 2;
+  double exaggeration = 1;
   double saturation = 1;
   double curve = 1;
   double min_factor = 0.25;
   int smoothing = 3;
+  LineWeightScene weight;
+  ControlScene control;  ///< for the method Control, which has exaggeration and smoothing as well
 };
 
 toml::Schema outline_schema();

@@ -1,5 +1,6 @@
 #include <cmath>
 #include <numbers>
+#include <random>
 
 #include <gtest/gtest.h>
 
@@ -176,6 +177,71 @@ TEST_F(LineShape, FactorsSetTheWidthAtEachPoint) {
     // y runs downwards and the points of the first rim have y = 1.
     EXPECT_NEAR(reach_px(layer, contour, {-1, 0}, 6), 2 + 4 * t, 0.15) << t;
   }
+}
+
+// A square before a wall: its line of 2 px, made five times as thick, has all of that where the wall is far behind;
+// close before the wall, what is added reaches no farther than a third of the step, and the base line stays.
+TEST_F(LineShape, WhatIsAddedIsNoWiderThanTheStepItMarks) {
+  const View v = view(240, 240, 400);
+  const mesh::Mesh leaf = square(), wall = square({0, 0, 1, 1});
+  const std::vector<float> factors(leaf.point_count, 5.0f);
+  outline::HullOptions options;
+  options.width_px = 2;
+  options.colour = {1, 0, 0};
+  options.style.factors = factors;
+  constexpr double distance = 10, pixel_m = distance / 400;
+  // The wall's depth behind the square in the square's pixels, and how wide the line is then: 2 + step / 3.
+  struct At {
+    double step_px, width_px;
+  };
+  for (const At& at_step : {At{400, 10}, At{12, 6}, At{6, 4}, At{0.6, 2.2}}) {
+    std::vector<passes::StyledObject> objects = scene_of(lined(leaf, moved(0.001, 0.002, distance), options));
+    objects.push_back(toon(wall, moved(0, 0, distance + at_step.step_px * pixel_m) * scaled(30)));
+    const Layer layer = drawn(std::move(objects), v);
+    // Red along a row from inside the square (white) to the wall (blue): what is neither.
+    double ink_px = 0;
+    for (int x = 120; x < 240; ++x) {
+      const auto c = at(layer, x, 120);
+      ink_px += (255.0 - c[2]) / 255.0;
+    }
+    // Edges within some hundredths of a pixel, and the soft pixel's own depth is that of its middle.
+    EXPECT_NEAR(ink_px, at_step.width_px, 0.5) << at_step.step_px;
+  }
+}
+
+// How wide a line is must not tremble when the pose does: by 0.3 px and what turns the object by as much.
+TEST_F(LineShape, WidthIsSteadyUnderAPoseThatTrembles) {
+  const View v = view(240, 240, 300);
+  const mesh::Mesh mesh = sphere(4);
+  const mesh::Topology topology = mesh::topology(mesh);
+  outline::HullOptions options;
+  options.width_px = 3;
+  options.colour = {1, 0, 0};
+  // Half of the ball's line is twice as thick, with a slope between.
+  std::vector<float> factors;
+  for (const glm::vec3& p : topology.points) factors.push_back(1.5f + 0.5f * p.y);
+  options.style.factors = factors;
+  std::mt19937 random(7);
+  std::normal_distribution<double> noise(0, 1);
+  constexpr double distance = 3, radius_px = 80, pixel_m = distance / 300;
+  passes::LayerRenderer renderer(scene_of(lined(mesh, scaled(radius_px * pixel_m), options)), picture_of(v));
+  std::vector<double> widths_px;
+  for (int frame = 0; frame < 60; ++frame) {
+    View from = v;
+    from.camera_from_world.translation_m = {0.3 * pixel_m * noise(random), 0.3 * pixel_m * noise(random),
+                                            distance + 0.3 * pixel_m * noise(random)};
+    const double turn = 0.3 / radius_px * noise(random);
+    from.camera_from_world.rotation = glm::angleAxis(turn, glm::normalize(glm::dvec3(1, 0.4, 0.7)));
+    Layer layer;
+    ASSERT_TRUE(renderer.draw(from, layer));
+    widths_px.push_back((area_px(layer) - channel_px(layer, 1)) / (2 * std::numbers::pi * radius_px));
+  }
+  double mean = 0, squares = 0;
+  for (double w : widths_px) mean += w / 60;
+  for (double w : widths_px) squares += (w - mean) * (w - mean) / 60;
+  EXPECT_NEAR(mean, 4.5, 0.5);  // the ring's outer half is longer than its inner one
+  EXPECT_LT(std::sqrt(squares), 0.1);
+  RecordProperty("width_deviation_px", std::to_string(std::sqrt(squares)));
 }
 
 TEST_F(LineShape, WidthInMetresFollowsDepthBetweenItsLimits) {

@@ -278,6 +278,22 @@ INSTANTIATE_TEST_SUITE_P(
         BadScene{
             "ShadeNegative", object + "toon = { shade_colour = [0, 0, -0.1] }\n",
             "DIR/scene.toml:8:32: 'shade_colour' in toon of [[object]] must be three numbers from 0 to 1, found -0.1"},
+        BadScene{"ControlOfAnotherMethod", object + "outline = { control = { along = 20 } }\n",
+                 "DIR/scene.toml:8:23: 'control' in outline of [[object]] goes with method = \"control\"; add that, or "
+                 "leave it out"},
+        BadScene{
+            "ControlPointsTwice",
+            object + "outline = { method = \"control\", control = { along = 20, sphere = 20 } }\n",
+            "DIR/scene.toml:8:66: 'sphere' in control of outline of [[object]] can't stand beside 'along'; keep one "
+            "of them"},
+        BadScene{"ControlPointOfTwoNumbers",
+                 object + "outline = { method = \"control\", control = { points_m = [[1, 2]] } }\n",
+                 "DIR/scene.toml:8:56: 'points_m' in control of outline of [[object]] must be a list of points [[x, y, "
+                 "z], ...] in metres, at most 10000, found an array of 1"},
+        BadScene{"ThresholdsOfBothKinds",
+                 object + "outline = { method = \"control\", control = { convex = 1, concave_deg = 170 } }\n",
+                 "DIR/scene.toml:8:54: 'convex' in control of outline of [[object]] can't stand beside thresholds in "
+                 "degrees; give both as _deg, or none"},
         BadScene{"AnimatedRegions", object + "animation = true\nregions = true\n",
                  "DIR/scene.toml:9:11: 'regions' in [[object]] needs a mesh that stands still, but the object has "
                  "'animation'; leave one of them out"},
@@ -287,7 +303,8 @@ INSTANTIATE_TEST_SUITE_P(
             "object has 'animation'; give cut = \"exact\" or \"gpu\""},
         BadScene{"AnimatedStrokes", object + "animation = true\noutline = { method = \"strokes\" }\n",
                  "DIR/scene.toml:9:11: 'outline' in [[object]] has lines that need a mesh that stands still, but the "
-                 "object has 'animation'; take the method \"uniform\" or \"curvature\", without inner lines"},
+                 "object has 'animation'; take the method \"uniform\", \"curvature\" or \"control\", without inner "
+                 "lines"},
         BadScene{"ClipFlag", object + "animation = { clip = true }\n",
                  "DIR/scene.toml:8:22: 'clip' in animation of [[object]] must be a clip's name or its number, counted "
                  "from 0, found true"},
@@ -318,7 +335,7 @@ INSTANTIATE_TEST_SUITE_P(
             "UnknownMethod", object + "outline = { method = \"curved\" }\n",
             "DIR/scene.toml:8:22: 'method' in outline of [[object]] must be one of \"uniform\", \"curvature\", "
             "\"hull\", \"depth_normals\", \"silhouette\", \"laplacian\", \"z_lines\", \"hidden_lines\", \"facing\", "
-            "\"isophote\", \"wobble\", \"strokes\", found the text \"curved\""},
+            "\"isophote\", \"wobble\", \"strokes\", \"control\", found the text \"curved\""},
         BadScene{"KeyOfAnotherMethod", object + "outline = { method = \"hull\", wobble = 1 }\n",
                  "DIR/scene.toml:8:39: 'wobble' in outline of [[object]] goes with method = \"wobble\"; add that, or "
                  "leave it out"},
@@ -338,8 +355,17 @@ INSTANTIATE_TEST_SUITE_P(
                  "DIR/scene.toml:8:41: 'brush' in outline of [[object]] names a file that doesn't exist: "
                  "DIR/gone.png"},
         BadScene{"ExaggeratedUniform", object + "outline = { exaggeration = 2 }\n",
-                 "DIR/scene.toml:8:28: 'exaggeration' in outline of [[object]] goes with method = \"curvature\"; add "
+                 "DIR/scene.toml:8:28: 'exaggeration' in outline of [[object]] goes with method = \"curvature\" or "
+                 "\"control\"; add "
                  "that, or leave it out"},
+        BadScene{"WeightOfAPicture", object + "outline = { method = \"silhouette\", weight = { shade = 1 } }\n",
+                 "DIR/scene.toml:8:45: 'weight' in outline of [[object]] goes with method = \"uniform\", "
+                 "\"curvature\", \"control\", \"z_lines\" or \"hidden_lines\"; choose one of these, or leave it out"},
+        BadScene{
+            "WeightOfAMaterialTwice",
+            object + "outline = { weight = { material = [{ name = \"a\", factor = 1 }, { name = \"a\", factor = "
+                     "2 }] } }\n",
+            "DIR/scene.toml:8:73: 'name' in material of weight of outline of [[object]] is given twice; leave one out"},
         BadScene{"UnknownSign", object + "outline = { method = \"curvature\", sign = \"thick\" }\n",
                  "DIR/scene.toml:8:42: 'sign' in outline of [[object]] must be \"magnitude\", \"convex\" or "
                  "\"concave\", found the text \"thick\""}),

@@ -204,6 +204,54 @@ TEST(Scene, TakesLinesInMetres) {
   EXPECT_EQ(line.method, OutlineScene::Method::Uniform);
 }
 
+TEST(Scene, TakesControlPoints) {
+  const SceneFolder folder;
+  const auto line = [&](const std::string& control) {
+    return *folder.read(object + "outline = { method = \"control\"" + control + " }\n").objects[0].outline;
+  };
+  using By = outline::FeaturePointOptions::By;
+  const OutlineScene defaults = line("");
+  EXPECT_EQ(defaults.method, OutlineScene::Method::Control);
+  EXPECT_EQ(defaults.taper_px, 15);
+  EXPECT_EQ(defaults.control.along, 60);
+  EXPECT_EQ(defaults.control.features.by, By::K95);
+  const OutlineScene sphere =
+      line(", exaggeration = 3, control = { sphere = 40, distance = 0.5, convex = 0.25, comparison = 2 }");
+  EXPECT_EQ(sphere.exaggeration, 3);
+  EXPECT_EQ(sphere.control.on_sphere, 40);
+  EXPECT_EQ(sphere.control.distance, 0.5);
+  EXPECT_EQ(sphere.control.features.convex, 0.25);
+  EXPECT_EQ(sphere.control.features.comparison, 2);
+  const OutlineScene printed =
+      line(", control = { points_m = [[0, 0.5, 1], [2, 0, 0]], reach_m = 0.1, lengths = true, concave_deg = 170 }");
+  ASSERT_EQ(printed.control.points_m.size(), 2u);
+  EXPECT_EQ(printed.control.points_m[0], glm::dvec3(0, 0.5, 1));
+  EXPECT_EQ(printed.control.reach_m, 0.1);
+  EXPECT_TRUE(printed.control.lengths);
+  EXPECT_EQ(printed.control.features.by, By::Degrees);
+  EXPECT_EQ(printed.control.features.concave, 170);
+  EXPECT_EQ(printed.control.features.convex, 360) << "no convex features unless asked for";
+}
+
+TEST(Scene, TakesWhatLinesWeigh) {
+  const SceneFolder folder;
+  EXPECT_FALSE(folder.read(object + "outline = true\n").objects[0].outline->weight.any());
+  std::ofstream(folder / "thick.png") << "not looked into yet";
+  const LineWeightScene weight =
+      folder
+          .read(object +
+                "outline = { weight = { shade = 1.5, paint = \"alpha\", map = \"thick.png\", "
+                "material = [{ name = \"skin\", factor = 0.5 }, { name = \"hair\", factor = 2 }] } }\n")
+          .objects[0]
+          .outline->weight;
+  EXPECT_EQ(weight.shade, 1.5);
+  EXPECT_EQ(weight.paint, 3);
+  EXPECT_EQ(weight.map.filename(), "thick.png");
+  ASSERT_EQ(weight.materials.size(), 2u);
+  EXPECT_EQ(weight.materials[1].name, "hair");
+  EXPECT_EQ(weight.materials[1].factor, 2);
+}
+
 TEST(Scene, PlaysAnimations) {
   const SceneFolder folder;
   EXPECT_FALSE(folder.read(object).objects[0].animation);

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "mesh/topology.h"
+
+namespace rinkaku::outline {
+
+/// Averages values at points of a surface over their neighbours, around some of the points or everywhere: each value
+/// becomes the mean of itself and its neighbours' mean, as many times as asked for.
+///
+/// Keeps no reference. Allocates nothing once warm. Cost: about 10 ns a point and time.
+class RingSmoothing {
+ public:
+  RingSmoothing(const mesh::Topology& topology, int times);
+
+  /// The points whose values are needed so that those at the wanted ones come out smoothed: these, their neighbours and
+  /// so on. All points where that would be most of the surface. Until the next call.
+  std::span<const std::uint32_t> around(std::span<const std::uint32_t> wanted);
+  std::span<const std::uint32_t> everywhere();
+
+  /// Smooths values, one a point, of which those that the last call named are given. Right then for what it was asked
+  /// for.
+  void smooth(std::span<float> values);
+
+  std::span<const std::uint32_t> neighbours(std::size_t point) const {
+    return std::span(neighbours_).subspan(first_[point], first_[point + 1] - first_[point]);
+  }
+
+ private:
+  void step(std::span<const std::uint32_t> of, std::span<float> values);
+
+  int times_ = 0;
+  std::vector<std::uint32_t> first_, neighbours_;  // per point its run, and the end
+  std::vector<std::uint32_t> all_;
+  std::vector<std::uint32_t> rings_, ring_ends_;  // the wanted points, then their neighbours, ...
+  bool whole_ = true;
+  std::vector<std::uint32_t> seen_at_;  // per point: by which call
+  std::uint32_t call_ = 0;
+  std::vector<float> smoothed_;
+};
+
+}  // namespace rinkaku::outline
