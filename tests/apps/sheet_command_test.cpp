@@ -81,7 +81,7 @@ TEST(RenderCommand, BrushThatIsNoPictureIsNamed) {
   folder.write("scene.toml", test::drawn_scene + "outline = { method = \"strokes\", brush = \"brush.png\" }\n");
   const test::CliResult got = test::run_rinkaku(folder, "render scene.toml -o out.mkv");
   EXPECT_EQ(got.status, 2);
-  EXPECT_TRUE(contains(got.err, "brush.png: is no picture")) << got.err;
+  EXPECT_TRUE(contains(got.err, "brush.png: no picture of it can be decoded")) << got.err;
   EXPECT_FALSE(std::filesystem::exists(folder / "out.mkv"));
 }
 
