@@ -14,6 +14,7 @@ uniform float back;            // how much farther away what is added lies, per 
 invariant gl_Position;
 out float inside_px;  // how far inside the rim
 out float strength;   // below 1 for lines thinner than a pixel
+out float added_px;   // what a factor above 1 adds; large in the line without that
 
 // From under the body's own feather ...
 const float under_px = -0.5;
@@ -29,6 +30,7 @@ void main() {
   float plain_px = base_px * min(factor, 1.0);
   float wished_px = beyond ? base_px * max(factor, 1.0) : plain_px;
   strength = min(wished_px, 1.0);
+  added_px = beyond ? wished_px - plain_px : 1e3;
   float inner_px = beyond ? opaque_part_px(plain_px) : under_px;
   float rim_px = max(wished_px, 1.0) + 0.5;  // half a pixel past the line's edge
   float opaque_px = opaque_part_px(wished_px);
@@ -40,8 +42,6 @@ void main() {
   if (beyond) {
     // What is added leans back: over a surface that lies behind the contour by less, it is hidden.
     clip.z /= 1.0 + back * max(offset_px - plain_px, 0.0);
-    // Where nearly nothing is added, the base line's own last pixel is all there should be.
-    strength *= smoothstep(0.0, 0.4, wished_px - plain_px);
   }
   gl_Position = clip;
   inside_px = rim_px - offset_px;

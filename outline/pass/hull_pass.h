@@ -24,8 +24,8 @@ struct HullOptions {
 /// those are drawn, so the cost is the contour's, not the mesh's. They are in the depth buffer: a line hides what is
 /// behind it, and what is before it hides the line. Neighbouring strips share their ends, so a line has no gaps, also
 /// at hard edges, where they end in a miter (passes::LineStrips). Where a line is thinner than a pixel it is fainter
-/// instead. What factors above 1 add leans back by as much as it is wide: around the object the line has its whole
-/// width, but over a surface close behind, as around a mouth on a face, it adds no more than that surface is behind.
+/// instead. What factors above 1 add leans back by three times its width: around the object the line has its whole
+/// width, but over a surface close behind, as around a mouth on a face, it adds no more than a third of that step.
 class HullPass : public passes::ObjectPass {
  public:
   /// `object` must outlive the pass.

@@ -46,6 +46,7 @@ TEST(LineWeights, AreAnImagesBrightness) {
   const auto file = std::filesystem::temp_directory_path() / ("ramp" + std::to_string(::getpid()) + ".png");
   cv::imwrite(file.string(), ramp);
   mesh::Mesh leaf = square();
+  leaf.uvs.clear();
   for (const glm::vec3& p : leaf.positions) leaf.uvs.emplace_back(0.5f + 0.25f * p.x, 0.5f);
   pipeline::LineWeightScene weight;
   weight.map = file;
