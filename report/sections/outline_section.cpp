@@ -82,7 +82,7 @@ std::unique_ptr<passes::LayerRenderer> renderer_of(const mesh::Mesh& mesh,
       std::make_unique<passes::DrawnObject>(passes::ObjectShape(mesh, place, passes::band_borders(mesh, place, toon)));
   styled.passes.push_back(std::make_unique<passes::ToonPass>(*styled.object, mesh, toon));
   std::vector<float> factors;
-  if (line) pipeline::add_outline(styled, mesh, *line, pipeline::line_style(mesh, *line, false, factors));
+  if (line) pipeline::add_outline(styled, mesh, *line, pipeline::line_style(mesh, *line, {}, factors));
   std::vector<passes::StyledObject> objects;
   objects.push_back(std::move(styled));
   return std::make_unique<passes::LayerRenderer>(std::move(objects), passes::PixelRect{0, 0, kSide_px, kSide_px});
