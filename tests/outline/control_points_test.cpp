@@ -113,6 +113,7 @@ ControlOptions unsmoothed(double reach = 0) {
   ControlOptions options;
   options.features.convex = 0.3;
   options.smoothing = 0;
+  options.exaggeration = 2;
   options.reach = reach;
   return options;
 }
