@@ -4,45 +4,22 @@
 #include "outline/curvature.h"
 
 #include <array>
-#include <cmath>
-#include <numbers>
 #include <vector>
 
 #include <benchmark/benchmark.h>
 
-#include "mesh/assemble.h"
 #include "mesh/topology.h"
 #include "outline/pass/curvature_pass.h"
 #include "pipeline/frame/error.h"
 #include "pipeline/gl/context.h"
+#include "report/sections/shapes.h"
 
 namespace {
 
 using namespace rinkaku;
 
-mesh::Topology torus() {
-  constexpr std::uint32_t around = 366, across = 174;  // 63,684 points
-  constexpr double outer = 1, inner = 0.7, turn = 2 * std::numbers::pi;
-  mesh::Soup soup;
-  for (std::uint32_t i = 0; i < around; ++i) {
-    for (std::uint32_t j = 0; j < across; ++j) {
-      const double u = turn * i / around, v = turn * j / across, radius = outer + inner * std::cos(v);
-      soup.positions.emplace_back(radius * std::cos(u), radius * std::sin(u), inner * std::sin(v));
-      const std::uint32_t next_i = (i + 1) % around, next_j = (j + 1) % across;
-      const std::uint32_t a = i * across + j, b = next_i * across + j, c = next_i * across + next_j,
-                          d = i * across + next_j;
-      soup.triangles.insert(soup.triangles.end(), {{a, b, c}, {a, c, d}});
-    }
-  }
-  mesh::Part part;
-  part.triangle_count = static_cast<std::uint32_t>(soup.triangles.size());
-  soup.parts = {part};
-  soup.materials.emplace_back();
-  return mesh::topology(mesh::assemble(std::move(soup), 60).mesh);
-}
-
 const mesh::Topology& surface() {
-  static const mesh::Topology topology = torus();
+  static const mesh::Topology topology = mesh::topology(report::Torus{}.mesh(366, 174));  // 63,684 points
   return topology;
 }
 

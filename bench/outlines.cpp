@@ -11,48 +11,30 @@
 #include <cstdlib>
 #include <functional>
 #include <memory>
-#include <numbers>
 #include <string>
 #include <vector>
 
 #include <glm/gtc/matrix_transform.hpp>
 
-#include "mesh/assemble.h"
 #include "mesh/topology.h"
 #include "outline/curvature.h"
 #include "outline/line_width.h"
 #include "pipeline/frame/error.h"
 #include "pipeline/gl/context.h"
-#include "pipeline/objects/outline_passes.h"
-#include "pipeline/passes/layer_renderer.h"
-#include "pipeline/passes/toon/band_borders.h"
-#include "pipeline/passes/toon/toon_pass.h"
+#include "pipeline/objects/lone_mesh.h"
+#include "report/sections/shapes.h"
 
 namespace {
 
 using namespace rinkaku;
 
 mesh::Mesh ring(std::size_t vertices) {
-  constexpr double turn = 2 * std::numbers::pi;
-  const auto across = static_cast<std::uint32_t>(std::max(8.0, std::round(std::sqrt(vertices / 2.2))));
-  const auto around = static_cast<std::uint32_t>((vertices + across / 2) / across);
-  mesh::Soup soup;
-  for (std::uint32_t i = 0; i < around; ++i) {
-    for (std::uint32_t j = 0; j < across; ++j) {
-      const double u = turn * i / around, v = turn * j / across;
-      const double thick = 0.4 + 0.05 * std::sin(5 * u) * std::cos(3 * v), radius = 1 + thick * std::cos(v);
-      soup.positions.emplace_back(radius * std::cos(u), radius * std::sin(u), thick * std::sin(v));
-      const std::uint32_t next_i = (i + 1) % around, next_j = (j + 1) % across;
-      const std::uint32_t a = i * across + j, b = next_i * across + j, c = next_i * across + next_j,
-                          d = i * across + next_j;
-      soup.triangles.insert(soup.triangles.end(), {{a, b, c}, {a, c, d}});
-    }
-  }
-  mesh::Part part;
-  part.triangle_count = static_cast<std::uint32_t>(soup.triangles.size());
-  soup.parts = {part};
-  soup.materials.emplace_back();
-  return mesh::assemble(std::move(soup), 60).mesh;
+  const auto across = static_cast<int>(std::max(8.0, std::round(std::sqrt(vertices / 2.2))));
+  const auto around = (static_cast<int>(vertices) + across / 2) / across;
+  return report::closed_grid(around, across, [](double u, double v) {
+    const double thick = 0.4 + 0.05 * std::sin(5 * u) * std::cos(3 * v), radius = 1 + thick * std::cos(v);
+    return glm::dvec3(radius * std::cos(u), radius * std::sin(u), thick * std::sin(v));
+  });
 }
 
 struct Way {
@@ -76,17 +58,7 @@ passes::View view_of(int frame) {
 
 std::unique_ptr<passes::LayerRenderer> renderer_of(const mesh::Mesh& mesh,
                                                    const std::optional<pipeline::OutlineScene>& line) {
-  const passes::ToonOptions toon;
-  passes::StyledObject styled;
-  const glm::dmat4 place(1);
-  styled.object =
-      std::make_unique<passes::DrawnObject>(passes::ObjectShape(mesh, place, passes::band_borders(mesh, place, toon)));
-  styled.passes.push_back(std::make_unique<passes::ToonPass>(*styled.object, mesh, toon));
-  std::vector<float> factors;
-  if (line) pipeline::add_outline(styled, mesh, *line, pipeline::line_style(mesh, *line, {}, factors));
-  std::vector<passes::StyledObject> objects;
-  objects.push_back(std::move(styled));
-  return std::make_unique<passes::LayerRenderer>(std::move(objects), passes::PixelRect{0, 0, kWidth_px, kHeight_px});
+  return pipeline::lone_mesh(mesh, glm::dmat4(1), {}, line, {0, 0, kWidth_px, kHeight_px});
 }
 
 std::vector<Way> ways_for(const mesh::Mesh& mesh) {

@@ -15,9 +15,9 @@
 #include <glm/geometric.hpp>
 
 #include "bench/water_scenes.h"
+#include "mesh/depth_order.h"
 #include "pipeline/gl/context.h"
 #include "pipeline/passes/layer_renderer.h"
-#include "water/depth_order.h"
 #include "water/painting.h"
 #include "water/pass/water_pass.h"
 #include "water/scatter.h"
@@ -108,7 +108,7 @@ void times(const River& river, const ReferencePicture& reference) {
   }
   std::vector<float> depths;
   for (std::uint64_t i = 0; i < 100000; ++i) depths.push_back(static_cast<float>(3 + 27 * scattered(i, 1)));
-  DepthOrder order;
+  mesh::DepthOrder order;
   std::vector<double> sort;
   for (int i = 0; i < 100; ++i) {
     const double a = cpu_ms();

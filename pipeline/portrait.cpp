@@ -12,12 +12,9 @@
 #include "mesh/bounds.h"
 #include "pipeline/frame/error.h"
 #include "pipeline/gl/context.h"
-#include "pipeline/objects/outline_passes.h"
+#include "pipeline/objects/lone_mesh.h"
 #include "pipeline/objects/placement.h"
 #include "pipeline/passes/composite/straight_alpha.h"
-#include "pipeline/passes/layer_renderer.h"
-#include "pipeline/passes/toon/band_borders.h"
-#include "pipeline/passes/toon/toon_pass.h"
 
 namespace rinkaku::pipeline {
 namespace {
@@ -104,22 +101,11 @@ Frame portrait(const mesh::Mesh& mesh, const PortraitOptions& options) {
   const std::unique_ptr<gl::Context> context = gl::Context::headless();
   passes::Layer layer;
   {
-    passes::StyledObject styled;
     passes::ToonOptions toon;
     toon.shade_colour = {0.80f, 0.79f, 0.86f};
     toon.light = {-0.2f, -0.7f, 0.8f};
-    styled.object = std::make_unique<passes::DrawnObject>(
-        passes::ObjectShape(mesh, world_from_mesh, passes::band_borders(mesh, world_from_mesh, toon)));
-    styled.passes.push_back(std::make_unique<passes::ToonPass>(*styled.object, mesh, toon));
-    if (options.outline) {
-      std::vector<float> factors;
-      add_outline(styled, mesh, *options.outline,
-                  line_style(mesh, *options.outline, {.world_from_object = world_from_mesh}, factors));
-    }
-    std::vector<passes::StyledObject> objects;
-    objects.push_back(std::move(styled));
-    passes::LayerRenderer renderer(std::move(objects), {0, 0, options.width_px, options.height_px});
-    renderer.draw(view, layer);
+    lone_mesh(mesh, world_from_mesh, toon, options.outline, {0, 0, options.width_px, options.height_px})
+        ->draw(view, layer);
   }
   return laid_over(layer, options);
 }

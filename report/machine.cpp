@@ -14,7 +14,6 @@
 #include "pipeline/ffmpeg/version.h"
 #include "pipeline/frame/error.h"
 #include "pipeline/gl/context.h"
-#include "pipeline/gl/version.h"
 #include "report/table.h"
 
 namespace rinkaku::report {
@@ -45,7 +44,7 @@ std::string load() {
 std::string renderer() {
   try {
     const auto context = gl::Context::headless();
-    return gl::version() + ", " + context->renderer();
+    return context->version() + ", " + context->renderer();
   } catch (const Error&) {
     return "none";
   }

@@ -58,4 +58,9 @@ std::vector<std::uint32_t> full_list(const Surface& surface);
 /// and which pixels folds cover depends on the triangles. Asked for are edges of 8 steps on average.
 double least_radius_px(const Surface& surface);
 
+/// How many pixels a ball's radius takes at its far side, seen from `distance` to its middle.
+inline double radius_px(double focal_px, double radius, double distance) {
+  return focal_px * radius / (distance + radius);
+}
+
 }  // namespace rinkaku::silhouette

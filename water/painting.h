@@ -5,11 +5,11 @@
 #include <optional>
 #include <vector>
 
+#include "mesh/depth_order.h"
 #include "pipeline/frame/camera_model.h"
 #include "pipeline/frame/rigid_transform.h"
 #include "water/brushes.h"
 #include "water/colours.h"
-#include "water/depth_order.h"
 #include "water/flow.h"
 #include "water/particles.h"
 #include "water/plots.h"
@@ -91,7 +91,7 @@ class Painting {
   std::optional<FollowedColours> followed_;
   std::vector<std::uint32_t> serial_;  // whose colour is kept at a place
   Seen seen_{};
-  DepthOrder order_;
+  mesh::DepthOrder order_;
   Strokes unordered_, strokes_;
   std::vector<float> depths_m_;
 };

@@ -7,7 +7,6 @@
 
 #include "pipeline/frame/camera_model.h"
 #include "pipeline/frame/rigid_transform.h"
-#include "water/depth_order.h"
 #include "water/section.h"
 #include "water/stroke_size.h"
 #include "water/strokes.h"

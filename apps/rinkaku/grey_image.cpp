@@ -52,7 +52,7 @@ matte::GreyMatte read_grey(const std::string& path) {
   if (frame.format.pixels.has_alpha) return matte_of(frame, frame.format.pixels.components - 1);
   if (frame.format.pixels.model == ColourModel::Grey) return matte_of(frame, 0);
   // Grey pictures are often stored in colour.
-  if (frame.format.pixels.model == ColourModel::Yuv) frame = source::read_rgba(path);
+  if (frame.format.pixels.model == ColourModel::Yuv) frame = source::to_rgba(frame);
   matte::GreyMatte red = matte_of(frame, 0);
   if (matte_of(frame, 1).alpha != red.alpha || matte_of(frame, 2).alpha != red.alpha) {
     throw input_error(path, "is a colour picture without alpha", "give a grey one, or one with an alpha channel");

@@ -40,14 +40,7 @@ Chosen region_list(const MatteCall& call, const silhouette::Surface& surface, co
   return chosen;
 }
 
-bool is_too_far(const MatteCall& call, const silhouette::Surface& surface, const glm::dvec3& eye) {
-  const double radius = surface.frame.radius;
-  const CameraModel camera = silhouette::camera_of(parse_size("--size", call.size), call.fov_deg * M_PI / 180);
-  const double radius_px = camera.fx_px * radius / (glm::distance(eye, surface.frame.centre) + radius);
-  return radius_px < silhouette::least_radius_px(surface);
-}
-
-Chosen choose(const MatteCall& call, const silhouette::Surface& surface, const glm::dvec3& eye) {
+Chosen choose(const MatteCall& call, const silhouette::Surface& surface, const glm::dvec3& eye, double focal_px) {
   Chosen chosen;
   const std::vector<std::uint32_t> full = silhouette::full_list(surface);
   if (call.method == "full") {
@@ -58,7 +51,10 @@ Chosen choose(const MatteCall& call, const silhouette::Surface& surface, const g
     chosen.indices.assign(facing.begin(), facing.end());
   } else if (call.method == "region") {
     chosen = region_list(call, surface, eye);
-    if (!chosen.region || is_too_far(call, surface, eye)) chosen.indices = full;  // as at run time
+    const double radius_px =
+        silhouette::radius_px(focal_px, surface.frame.radius, glm::distance(eye, surface.frame.centre));
+    // As at run time.
+    if (!chosen.region || radius_px < silhouette::least_radius_px(surface)) chosen.indices = full;
   } else {
     auto triangles = static_cast<std::size_t>(call.triangles);
     if (triangles == 0) {
@@ -103,7 +99,7 @@ int matte(const MatteCall& call) {
   const glm::dvec3 eye = parse_point("--eye", call.eye);
   const silhouette::CheckView view = view_of(call, eye);
   const silhouette::Surface surface = read_surface(call.mesh);
-  const Chosen chosen = choose(call, surface, eye);
+  const Chosen chosen = choose(call, surface, eye, view.view.camera.fx_px);
 
   const auto context = gl::Context::headless();
   silhouette::MatteComparison drawing(surface);

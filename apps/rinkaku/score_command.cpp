@@ -70,22 +70,20 @@ class Mattes {
  public:
   explicit Mattes(const std::string& path) : source_(source::open(path)), next_(source_->next()) {
     if (!next_) throw input_error(path, "it holds no picture", "give a matte, or a video of mattes");
-    first_ = grey_of(*next_);
-    next_ = source_->next();
+    after_ = source_->next();
   }
-  bool is_one() const { return !next_; }
+  bool is_one() const { return !after_; }
   std::optional<GreyMatte> next() {
-    if (first_) return std::exchange(first_, std::nullopt);
     if (!next_) return {};
     GreyMatte grey = grey_of(*next_);
-    next_ = source_->next();
+    next_ = std::move(after_);
+    after_ = next_ ? source_->next() : std::nullopt;
     return grey;
   }
 
  private:
   std::unique_ptr<source::Source> source_;
-  std::optional<Frame> next_;
-  std::optional<GreyMatte> first_;
+  std::optional<Frame> next_, after_;
 };
 
 int score_pictures(const ScoreCall& call) {

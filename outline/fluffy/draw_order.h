@@ -1,12 +1,12 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
 
 #include <glm/vec3.hpp>
 
+#include "mesh/depth_order.h"
 #include "outline/fluffy/frame.h"
 
 namespace rinkaku::fluffy {
@@ -31,17 +31,11 @@ class DrawOrder {
   void move(const Frame& frame);
 
  private:
-  struct Entry {
-    std::uint32_t key;
-    std::uint32_t triangle;
-  };
-  void sort(std::size_t count);
-
   std::uint32_t layers_;
   std::vector<glm::uvec3> triangles_;
   std::vector<glm::vec3> middles_, normals_;
-  std::vector<Entry> entries_, other_;
-  std::array<std::array<std::uint32_t, 256>, 2> places_{};
+  std::vector<float> distances_;
+  mesh::DepthOrder order_;
   std::vector<std::uint32_t> indices_;
 };
 

@@ -17,12 +17,6 @@ namespace {
 
 using Method = PictureLinesOptions::Method;
 
-gl::VertexArrayHandle make_empty_array() {
-  GLuint name = 0;
-  glCreateVertexArrays(1, &name);
-  return gl::VertexArrayHandle(name);
-}
-
 std::string_view method_define(Method method) {
   return method == Method::DepthNormals ? "DEPTH_NORMALS" : method == Method::Laplacian ? "LAPLACIAN" : "SILHOUETTE";
 }
@@ -37,7 +31,7 @@ PictureLinesPass::PictureLinesPass(passes::DrawnObject& object, passes::ObjectPa
       surface_(options.method == Method::Laplacian ? SurfaceBuffer::Content::Picture : SurfaceBuffer::Content::Normals),
       edges_(std::vector<GLenum>{GL_RGBA32F}, gl::TextureTarget::Depth::None),
       lines_(std::vector<GLenum>{GL_RGBA32F}, gl::TextureTarget::Depth::None),
-      no_vertices_(make_empty_array()) {
+      no_vertices_(gl::make_vertex_array()) {
   const std::string_view vertex[] = {embedded::whole_picture_vert}, spreading[] = {embedded::spread_edges_vert};
   const std::string_view finding[] = {embedded::find_edges_frag}, spread_part[] = {embedded::spread_edges_frag};
   const std::string_view drawing[] = {embedded::draw_edges_frag};

@@ -18,8 +18,8 @@ namespace rinkaku::outline {
 namespace {
 
 gl::VertexArrayHandle make_array() {
-  GLuint name = 0;
-  glCreateVertexArrays(1, &name);
+  gl::VertexArrayHandle array = gl::make_vertex_array();
+  const GLuint name = array.name();
   const struct {
     GLint size;
     std::size_t offset;
@@ -33,7 +33,7 @@ gl::VertexArrayHandle make_array() {
                               static_cast<GLuint>(attributes[i].offset));
     glVertexArrayAttribBinding(name, i, 0);
   }
-  return gl::VertexArrayHandle(name);
+  return array;
 }
 
 double scale_of(const glm::dmat4& world_from_object) {

@@ -55,6 +55,7 @@ std::unique_ptr<Context> Context::headless() {
   }
   ++counters().contexts;
   self->renderer_ = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
+  self->version_ = reinterpret_cast<const char*>(glGetString(GL_VERSION));
   self->software_ =
       self->renderer_.find("llvmpipe") != std::string::npos || self->renderer_.find("softpipe") != std::string::npos;
   return self;

@@ -28,6 +28,8 @@ class Context {
   Context& operator=(const Context&) = delete;
 
   const std::string& renderer() const { return renderer_; }
+  /// OpenGL's and the driver's version, e.g. "4.5 (Core Profile) Mesa 22.3.6".
+  const std::string& version() const { return version_; }
   /// Drawing runs on the CPU (Mesa's llvmpipe or softpipe).
   bool software() const { return software_; }
 
@@ -35,7 +37,7 @@ class Context {
   Context() = default;
   void* display_ = nullptr;
   void* context_ = nullptr;
-  std::string renderer_;
+  std::string renderer_, version_;
   bool software_ = false;
 };
 

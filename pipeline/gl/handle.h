@@ -43,4 +43,15 @@ using VertexArrayHandle = Handle<free_vertex_array>;
 using ProgramHandle = Handle<free_program>;
 using ShaderHandle = Handle<free_shader>;
 
+inline VertexArrayHandle make_vertex_array() {
+  GLuint name = 0;
+  glCreateVertexArrays(1, &name);
+  return VertexArrayHandle(name);
+}
+inline FramebufferHandle make_framebuffer() {
+  GLuint name = 0;
+  glCreateFramebuffers(1, &name);
+  return FramebufferHandle(name);
+}
+
 }  // namespace rinkaku::gl

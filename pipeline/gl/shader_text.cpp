@@ -1,11 +1,9 @@
 #include "pipeline/gl/shader_text.h"
 
-#include <fstream>
-#include <iterator>
 #include <system_error>
 #include <utility>
 
-#include "pipeline/frame/error.h"
+#include "pipeline/files/read_file.h"
 
 namespace rinkaku::gl {
 namespace {
@@ -39,10 +37,8 @@ std::string shader_text(std::string_view built_in) {
   const std::filesystem::path path = folder() / name;
   std::error_code absent;
   if (!std::filesystem::is_regular_file(path, absent)) return std::string(built_in);
-  std::ifstream file(path);
-  std::string text((std::istreambuf_iterator<char>(file)), {});
-  if (!file) throw runtime_failure(path.string(), "can't be read", "check its permissions");
-  return text;
+  constexpr std::size_t most_bytes = 1 << 20;
+  return files::read_file(path, most_bytes);
 }
 
 }  // namespace rinkaku::gl

@@ -14,7 +14,7 @@ void use_shaders_from(std::filesystem::path folder);
 /// By its ending.
 bool is_shader_file(const std::filesystem::path& file);
 
-/// The text that goes to the compiler for a part built in. Throws Error (Runtime) if its file can't be read.
+/// The text that goes to the compiler for a part built in. Throws Error (Input) if its file can't be read.
 std::string shader_text(std::string_view built_in);
 
 }  // namespace rinkaku::gl

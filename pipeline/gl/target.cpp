@@ -9,12 +9,6 @@
 namespace rinkaku::gl {
 namespace {
 
-GLuint create_framebuffer() {
-  GLuint name = 0;
-  glCreateFramebuffers(1, &name);
-  return name;
-}
-
 RenderbufferHandle storage(GLenum format, int width_px, int height_px) {
   GLuint name = 0;
   glCreateRenderbuffers(1, &name);
@@ -28,7 +22,7 @@ int rounded(int px) { return (px + 127) / 128 * 128; }
 
 }  // namespace
 
-Target::Target(Kind kind) : kind_(kind), framebuffer_(create_framebuffer()) { ++counters().targets; }
+Target::Target(Kind kind) : kind_(kind), framebuffer_(make_framebuffer()) { ++counters().targets; }
 
 void Target::begin(int width_px, int height_px, double depth) {
   if (width_px > width_px_ || height_px > height_px_) {

@@ -22,19 +22,13 @@ TextureHandle storage(GLenum format, int width_px, int height_px) {
   return handle;
 }
 
-FramebufferHandle create_framebuffer() {
-  GLuint name = 0;
-  glCreateFramebuffers(1, &name);
-  return FramebufferHandle(name);
-}
-
 // An object that comes nearer does not ask for new storage every frame.
 int rounded(int px) { return (px + 127) / 128 * 128; }
 
 }  // namespace
 
 TextureTarget::TextureTarget(std::vector<GLenum> colours, Depth depth)
-    : formats_(std::move(colours)), has_depth_(depth == Depth::Float), framebuffer_(create_framebuffer()) {
+    : formats_(std::move(colours)), has_depth_(depth == Depth::Float), framebuffer_(make_framebuffer()) {
   colours_.resize(formats_.size());
   std::vector<GLenum> attachments;
   for (std::size_t i = 0; i < formats_.size(); ++i) {

@@ -134,24 +134,28 @@ std::unique_ptr<passes::ObjectPass> drawn_lines(passes::DrawnObject& object, con
   return std::make_unique<outline::StrokePass>(object, mesh, mesh::topology(mesh), options);
 }
 
+// Strokes along what the scene takes for a line on the body, thinner than the contour.
+outline::StrokeOptions along_features(outline::StrokeOptions::Lines lines, const OutlineScene& line,
+                                      const InnerLinesScene& inner) {
+  outline::StrokeOptions options;
+  options.lines = lines;
+  options.features = {inner.creases, inner.crease_deg, inner.materials, inner.cuts};
+  options.look = thinner(look_of(line));
+  return options;
+}
+
 std::unique_ptr<passes::ObjectPass> hidden_lines(passes::DrawnObject& object, const mesh::Mesh& mesh,
                                                  const OutlineScene& line, const InnerLinesScene& inner) {
-  outline::StrokeOptions options;
-  options.lines = outline::StrokeOptions::Lines::All;
-  options.features = {inner.creases, inner.crease_deg, inner.materials, inner.cuts};
+  outline::StrokeOptions options = along_features(outline::StrokeOptions::Lines::All, line, inner);
   options.only_hidden = true;
-  options.look = thinner(look_of(line));
   options.opacity = static_cast<float>(line.style.hidden);
   return std::make_unique<outline::StrokePass>(object, mesh, mesh::topology(mesh), options);
 }
 
 std::unique_ptr<passes::ObjectPass> inner_lines(passes::DrawnObject& object, const mesh::Mesh& mesh,
                                                 const OutlineScene& line, const InnerLinesScene& inner) {
-  outline::StrokeOptions options;
-  options.lines = outline::StrokeOptions::Lines::Inner;
-  options.features = {inner.creases, inner.crease_deg, inner.materials, inner.cuts};
+  outline::StrokeOptions options = along_features(outline::StrokeOptions::Lines::Inner, line, inner);
   options.hand = false;
-  options.look = thinner(look_of(line));
   if (inner.width_px) options.look.width_px = static_cast<float>(*inner.width_px), options.look.width_m = 0;
   // Lighter than the contour, as those who classify lines draw them.
   options.look.colour = inner.colour ? colour(*inner.colour) : glm::mix(colour(line.colour), glm::vec3(0.5f), 0.35f);

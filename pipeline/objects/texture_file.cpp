@@ -25,7 +25,7 @@ std::uint8_t grey_of(const std::uint8_t* rgb) {
 }  // namespace
 
 mesh::Texture read_texture(const std::filesystem::path& file) {
-  const Frame frame = source::read_rgba(file.string());
+  const Frame frame = source::to_rgba(source::read_picture(file.string()));
   const Plane& plane = frame.planes[0];
   mesh::Texture texture;
   texture.width_px = frame.format.width_px;

@@ -28,14 +28,14 @@ DrawnObject::DrawnObject(ObjectShape shape)
 }
 
 gl::VertexArrayHandle DrawnObject::make_vertex_array() {
-  GLuint name = 0;
-  glCreateVertexArrays(1, &name);
+  gl::VertexArrayHandle array = gl::make_vertex_array();
+  const GLuint name = array.name();
   attribute(name, 0, 3, GL_FLOAT, GL_FALSE, offsetof(ShapeVertex, position));
   attribute(name, 1, 3, GL_SHORT, GL_TRUE, offsetof(ShapeVertex, normal));
   attribute(name, 2, 4, GL_SHORT, GL_TRUE, offsetof(ShapeVertex, outline_normal));
   attribute(name, 3, 2, GL_FLOAT, GL_FALSE, offsetof(ShapeVertex, uv));
   attribute(name, 4, 4, GL_UNSIGNED_BYTE, GL_TRUE, offsetof(ShapeVertex, colour));
-  return gl::VertexArrayHandle(name);
+  return array;
 }
 
 gl::VertexArrayHandle DrawnObject::make_border_array() {
@@ -108,9 +108,8 @@ std::span<const Run> DrawnObject::bind_contour() {
 
 void DrawnObject::ask_for_lines(const LineStyle& style) {
   shape_.ask_for_lines(style);
-  GLuint name = 0;
-  glCreateVertexArrays(1, &name);
-  line_array_ = gl::VertexArrayHandle(name);
+  line_array_ = gl::make_vertex_array();
+  const GLuint name = line_array_.name();
   attribute(name, 0, 3, GL_FLOAT, GL_FALSE, offsetof(LineVertex, position));
   attribute(name, 1, 4, GL_SHORT, GL_TRUE, offsetof(LineVertex, line));
 }

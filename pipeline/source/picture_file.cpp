@@ -23,13 +23,12 @@ Frame read_picture(const std::string& path) {
   return std::move(*frame);
 }
 
-Frame read_rgba(const std::string& path) {
-  const Frame stored = read_picture(path);
-  PictureFormat rgba = stored.format;
+Frame to_rgba(const Frame& frame) {
+  PictureFormat rgba = frame.format;
   rgba.pixels = ffmpeg::to_pixel_format(AV_PIX_FMT_RGBA);
   rgba.colour.matrix = 0;
   rgba.colour.range = ColourTags::Range::Full;
-  return ffmpeg::Converter(rgba).convert(*ffmpeg::wrap(stored));
+  return ffmpeg::Converter(rgba).convert(*ffmpeg::wrap(frame));
 }
 
 }  // namespace rinkaku::source

@@ -10,7 +10,7 @@ namespace rinkaku::source {
 /// Throws Error (Input) naming the file if it can't be read or is damaged.
 Frame read_picture(const std::string& path);
 
-/// The same in 8-bit RGBA, straight alpha, in one plane. Throws as read_picture() does.
-Frame read_rgba(const std::string& path);
+/// A frame in 8-bit RGBA, straight alpha, in one plane. Throws Error (Input) if such frames can't be converted.
+Frame to_rgba(const Frame& frame);
 
 }  // namespace rinkaku::source

@@ -55,15 +55,11 @@ FromCode from_code(const PictureFormat& format) {
 
 }  // namespace
 
-Presenter::Presenter(Way way) : way_(way) {
-  GLuint name = 0;
-  glCreateFramebuffers(1, &name);
-  framebuffer_ = gl::FramebufferHandle(name);
+Presenter::Presenter(Way way) : way_(way), framebuffer_(gl::make_framebuffer()) {
   if (way_ == Way::Cpu) return;
   const std::string_view vertex[] = {embedded::plate_vert}, fragment[] = {embedded::plate_frag};
   program_ = gl::Program("plate", {}, vertex, fragment);
-  glCreateVertexArrays(1, &name);
-  nothing_ = gl::VertexArrayHandle(name);
+  nothing_ = gl::make_vertex_array();
 }
 
 void Presenter::make_picture(int width_px, int height_px) {

@@ -8,10 +8,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "pipeline/gl/context.h"
-#include "pipeline/objects/outline_passes.h"
-#include "pipeline/passes/layer_renderer.h"
-#include "pipeline/passes/toon/band_borders.h"
-#include "pipeline/passes/toon/toon_pass.h"
+#include "pipeline/objects/lone_mesh.h"
 #include "report/sections/sections.h"
 #include "report/sections/shapes.h"
 
@@ -76,16 +73,7 @@ std::unique_ptr<passes::LayerRenderer> renderer_of(const mesh::Mesh& mesh,
                                                    const std::optional<pipeline::OutlineScene>& line) {
   passes::ToonOptions toon;
   toon.bands = 0;
-  const glm::dmat4 place(1);
-  passes::StyledObject styled;
-  styled.object =
-      std::make_unique<passes::DrawnObject>(passes::ObjectShape(mesh, place, passes::band_borders(mesh, place, toon)));
-  styled.passes.push_back(std::make_unique<passes::ToonPass>(*styled.object, mesh, toon));
-  std::vector<float> factors;
-  if (line) pipeline::add_outline(styled, mesh, *line, pipeline::line_style(mesh, *line, {}, factors));
-  std::vector<passes::StyledObject> objects;
-  objects.push_back(std::move(styled));
-  return std::make_unique<passes::LayerRenderer>(std::move(objects), passes::PixelRect{0, 0, kSide_px, kSide_px});
+  return pipeline::lone_mesh(mesh, glm::dmat4(1), toon, line, {0, 0, kSide_px, kSide_px});
 }
 
 struct Style {

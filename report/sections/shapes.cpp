@@ -52,23 +52,30 @@ mesh::Mesh octahedral(int n, const std::function<glm::dvec3(const glm::dvec3&)>&
 
 }  // namespace
 
-mesh::Mesh Torus::mesh(int around, int across, double unrest, std::uint64_t seed) const {
+mesh::Mesh closed_grid(int around, int across, const std::function<glm::dvec3(double u, double v)>& at) {
   constexpr double turn = 2 * std::numbers::pi;
-  std::mt19937_64 engine(seed);
-  const auto off = [&engine, unrest] { return unrest * (static_cast<double>(engine() >> 11) * 0x1p-52 - 1); };
+  const auto number = [across](int row, int column) { return static_cast<std::uint32_t>(row * across + column); };
   mesh::Soup soup;
   for (int i = 0; i < around; ++i) {
     for (int j = 0; j < across; ++j) {
-      const double u = turn * (i + off()) / around, v = turn * (j + off()) / across;
-      const double radius = outer + inner * std::cos(v);
-      soup.positions.emplace_back(radius * std::cos(u), radius * std::sin(u), inner * std::sin(v));
+      soup.positions.emplace_back(at(turn * i / around, turn * j / across));
       const int next_i = (i + 1) % around, next_j = (j + 1) % across;
-      const auto number = [across](int row, int column) { return static_cast<std::uint32_t>(row * across + column); };
       const std::uint32_t a = number(i, j), b = number(next_i, j), c = number(next_i, next_j), d = number(i, next_j);
       soup.triangles.insert(soup.triangles.end(), {{a, b, c}, {a, c, d}});
     }
   }
   return assembled(std::move(soup));
+}
+
+mesh::Mesh Torus::mesh(int around, int across, double unrest, std::uint64_t seed) const {
+  constexpr double turn = 2 * std::numbers::pi;
+  std::mt19937_64 engine(seed);
+  const auto off = [&engine, unrest] { return unrest * (static_cast<double>(engine() >> 11) * 0x1p-52 - 1); };
+  return closed_grid(around, across, [&](double even_u, double even_v) {
+    const double u = even_u + turn * off() / around, v = even_v + turn * off() / across;
+    const double radius = outer + inner * std::cos(v);
+    return glm::dvec3(radius * std::cos(u), radius * std::sin(u), inner * std::sin(v));
+  });
 }
 
 double Torus::mean_curvature(const glm::dvec3& p) const {

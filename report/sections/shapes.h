@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 
 #include <glm/vec3.hpp>
 
@@ -9,6 +10,10 @@
 namespace rinkaku::report {
 
 /// Meshes made by formulas, so that nothing needs to be at hand and curvature is known.
+
+/// A mesh closed both ways round, of `around` x `across` points, two triangles a cell: u runs around and v across, from
+/// 0 to 2 pi.
+mesh::Mesh closed_grid(int around, int across, const std::function<glm::dvec3(double u, double v)>& at);
 
 /// A torus about z.
 struct Torus {

@@ -22,13 +22,13 @@ gl::StaticBuffer centred_vertices(std::span<const glm::vec3> points, const glm::
 }
 
 gl::VertexArrayHandle vertex_array(GLuint vertices) {
-  GLuint name = 0;
-  glCreateVertexArrays(1, &name);
+  gl::VertexArrayHandle array = gl::make_vertex_array();
+  const GLuint name = array.name();
   glVertexArrayVertexBuffer(name, 0, vertices, 0, sizeof(glm::vec3));
   glEnableVertexArrayAttrib(name, 0);
   glVertexArrayAttribFormat(name, 0, 3, GL_FLOAT, GL_FALSE, 0);
   glVertexArrayAttribBinding(name, 0, 0);
-  return gl::VertexArrayHandle(name);
+  return array;
 }
 
 // With the eye at e, rows x, y and w of the matrix take p to A (p - e), so a triangle that faces the eye is seen

@@ -176,8 +176,8 @@ CheckView CheckViews::placed(Random& random, const Eye& eye) const {
     largest_scale = std::max(largest_scale, glm::length(glm::dvec3(out.world_from_object[axis])));
   }
   const double radius_m = largest_scale * frame_.radius;
-  const double farthest_m = glm::length(in_world(eye.unit) - in_world(glm::dvec3(0))) + radius_m;
-  out.radius_px = out.view.camera.fx_px * radius_m / farthest_m;
+  const double distance_m = glm::length(in_world(eye.unit) - in_world(glm::dvec3(0)));
+  out.radius_px = radius_px(out.view.camera.fx_px, radius_m, distance_m);
   char text[160];
   std::snprintf(text, sizeof text, "region %u, %s, %.3g radii off, %s, %dx%d, %.3g degrees", eye.region, eye.where,
                 distance, placing, size.x, size.y, fov * 180 / M_PI);

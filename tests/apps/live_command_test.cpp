@@ -101,6 +101,29 @@ CliResult on_a_screen(const ShotFolder& folder, const std::string& line) {
           line + "; status=$?; kill $screen; wait $screen; exit $status");
 }
 
+// Plays scene.toml on such a screen; `keys` is run once the window is there, which is then closed.
+CliResult play_on_a_screen(const ShotFolder& folder, const std::string& options, const std::string& keys) {
+  return on_a_screen(
+      folder, "\"$RINKAKU\" play scene.toml " + options +
+                  " --no-panel --json >report 2>trouble & player=$!; for i in $(seq 100); do xdotool search --name "
+                  "rinkaku >window 2>/dev/null && break; sleep 0.1; done; sleep 1.5; " +
+                  keys + "xdotool key q; wait $player");
+}
+
+// Takes the $n-th screenshot, and waits for it.
+const std::string screenshot =
+    "xdotool mousemove 32 24 key p; for k in $(seq 100); do [ -s rinkaku_00000$n.png ] && break; sleep 0.1; done; ";
+
+Frame shot(const ShotFolder& folder, int number) {
+  return folder.frames("rinkaku_00000" + std::to_string(number) + ".png").at(0);
+}
+
+void write_cube_on_grey(const ShotFolder& folder) {
+  test::ffmpeg("-f lavfi -i color=gray:size=640x480:rate=25 -frames:v 4 -pix_fmt yuv420p -c:v ffv1 '" +
+               folder.file("in.mkv") + "'");
+  folder.write("scene.toml", "[plate]\nvideo = \"in.mkv\"\ncamera = \"camera.yml\"\n" + locked + cube);
+}
+
 TEST(Live, WindowShowsTheCompositeAndObeysKeys) {
   if (std::system("command -v Xvfb xdotool >/dev/null 2>&1") != 0) GTEST_SKIP() << "Xvfb or xdotool is not installed";
   const ShotFolder folder;
@@ -110,14 +133,11 @@ TEST(Live, WindowShowsTheCompositeAndObeysKeys) {
       "\"geq=lum=120:cb=100:cr=180,setparams=colorspace=smpte170m:range=tv\" -pix_fmt yuv420p -c:v ffv1 '" +
       folder.file("in.mkv") + "'");
   folder.write("scene.toml", "[plate]\nvideo = \"in.mkv\"\n");
-  const CliResult result = on_a_screen(
-      folder,
-      "\"$RINKAKU\" play scene.toml --no-panel --json >report 2>trouble & player=$!; "
-      "for i in $(seq 100); do xdotool search --name rinkaku >window 2>/dev/null && break; sleep 0.1; done; sleep 1.5; "
-      "ffmpeg -nostdin -v error -y -f x11grab -video_size 320x240 -i $DISPLAY -frames:v 1 screen.png; "
-      "xdotool mousemove 32 24 key p; sleep 0.7; xdotool key f; sleep 0.7; "
-      "ffmpeg -nostdin -v error -y -f x11grab -video_size 320x240 -i $DISPLAY -frames:v 1 full.png; "
-      "xdotool key q; wait $player");
+  const CliResult result =
+      play_on_a_screen(folder, "",
+                       "ffmpeg -nostdin -v error -y -f x11grab -video_size 320x240 -i $DISPLAY -frames:v 1 screen.png; "
+                       "xdotool mousemove 32 24 key p; sleep 0.7; xdotool key f; sleep 0.7; "
+                       "ffmpeg -nostdin -v error -y -f x11grab -video_size 320x240 -i $DISPLAY -frames:v 1 full.png; ");
   ASSERT_EQ(result.status, 0) << result.err << text_of(folder / "trouble");
   const auto report = json_of(text_of(folder / "report"));
   EXPECT_GT(report["frames"].get<int>(), 5);
@@ -140,21 +160,11 @@ TEST(Live, WindowShowsTheCompositeAndObeysKeys) {
 TEST(Live, KeyShowsMattesAndCurvature) {
   if (std::system("command -v Xvfb xdotool >/dev/null 2>&1") != 0) GTEST_SKIP() << "Xvfb or xdotool is not installed";
   const ShotFolder folder(640, 480);
-  test::ffmpeg("-f lavfi -i color=gray:size=640x480:rate=25 -frames:v 4 -pix_fmt yuv420p -c:v ffv1 '" +
-               folder.file("in.mkv") + "'");
-  folder.write("scene.toml", "[plate]\nvideo = \"in.mkv\"\ncamera = \"camera.yml\"\n" + locked + cube);
-  const CliResult result = on_a_screen(
-      folder,
-      "\"$RINKAKU\" play scene.toml --no-panel --json >report 2>trouble & player=$!; "
-      "for i in $(seq 100); do xdotool search --name rinkaku >window 2>/dev/null && break; sleep 0.1; done; sleep 1.5; "
-      "for i in 1 2 3; do xdotool mousemove 32 24 key p; "
-      "for k in $(seq 100); do [ -s rinkaku_00000$i.png ] && break; sleep 0.1; done; xdotool key v; sleep 2; done; "
-      "xdotool key q; wait $player");
+  write_cube_on_grey(folder);
+  const CliResult result =
+      play_on_a_screen(folder, "", "for n in 1 2 3; do " + screenshot + "xdotool key v; sleep 2; done; ");
   ASSERT_EQ(result.status, 0) << result.err << text_of(folder / "trouble");
-  const auto shot = [&folder](int number) {
-    return folder.frames("rinkaku_00000" + std::to_string(number) + ".png").at(0);
-  };
-  const Frame picture = shot(1), mattes = shot(2), curvature = shot(3);
+  const Frame picture = shot(folder, 1), mattes = shot(folder, 2), curvature = shot(folder, 3);
   // The cube is in the middle and leaves the corners free.
   EXPECT_EQ(mattes.format.pixels.model, ColourModel::Grey);
   EXPECT_EQ(sample(mattes, 0, 320, 240), 255);
@@ -168,9 +178,7 @@ TEST(Live, KeyShowsMattesAndCurvature) {
 TEST(Live, ShadersAreReadAnewAndWrongOnesChangeNothing) {
   if (std::system("command -v Xvfb xdotool >/dev/null 2>&1") != 0) GTEST_SKIP() << "Xvfb or xdotool is not installed";
   const ShotFolder folder(640, 480);
-  test::ffmpeg("-f lavfi -i color=gray:size=640x480:rate=25 -frames:v 4 -pix_fmt yuv420p -c:v ffv1 '" +
-               folder.file("in.mkv") + "'");
-  folder.write("scene.toml", "[plate]\nvideo = \"in.mkv\"\ncamera = \"camera.yml\"\n" + locked + cube);
+  write_cube_on_grey(folder);
   const auto shader = [](const char* colour) {
     return std::string("layout(location = 0) out vec4 fragment; void main() { fragment = vec4(") + colour + ", 1); }";
   };
@@ -178,21 +186,13 @@ TEST(Live, ShadersAreReadAnewAndWrongOnesChangeNothing) {
   folder.write("s/pipeline/passes/toon/toon.frag", shader("0, 1, 0"));
   folder.write("blue.frag", shader("0, 0, 1"));
   folder.write("wrong.frag", "void main() { this is no shader }");
-  const std::string shot =
-      "xdotool mousemove 32 24 key p; for k in $(seq 100); do [ -s rinkaku_00000$n.png ] && break; "
-      "sleep 0.1; done; ";
-  const CliResult result = on_a_screen(
-      folder,
-      "\"$RINKAKU\" play scene.toml --shaders s --no-panel --json >report 2>trouble & player=$!; "
-      "for i in $(seq 100); do xdotool search --name rinkaku >window 2>/dev/null && break; sleep 0.1; done; sleep 1.5; "
-      "n=1; " +
-          shot +
-          "for next in blue wrong; do cp $next.frag new; mv new s/pipeline/passes/toon/toon.frag; sleep 3; "
-          "n=$((n + 1)); " +
-          shot + "done; xdotool key q; wait $player");
+  const CliResult result = play_on_a_screen(
+      folder, "--shaders s",
+      "n=1; " + screenshot + "for next in blue wrong; do cp $next.frag new; mv new s/pipeline/passes/toon/toon.frag; " +
+          "sleep 3; n=$((n + 1)); " + screenshot + "done; ");
   ASSERT_EQ(result.status, 0) << result.err << text_of(folder / "trouble");
   const auto middle = [&folder](int number) {
-    const Frame frame = folder.frames("rinkaku_00000" + std::to_string(number) + ".png").at(0);
+    const Frame frame = shot(folder, number);
     return std::array{sample(frame, 0, 320, 240), sample(frame, 1, 320, 240), sample(frame, 2, 320, 240)};
   };
   const auto green = middle(1), blue = middle(2), after_wrong = middle(3);

@@ -16,12 +16,6 @@
 namespace rinkaku::water {
 namespace {
 
-gl::VertexArrayHandle vertex_array() {
-  GLuint name = 0;
-  glCreateVertexArrays(1, &name);
-  return gl::VertexArrayHandle(name);
-}
-
 void attribute(GLuint array, GLuint location, GLint size, GLenum type, GLboolean normalised, std::size_t offset) {
   glEnableVertexArrayAttrib(array, location);
   glVertexArrayAttribFormat(array, location, size, type, normalised, static_cast<GLuint>(offset));
@@ -105,8 +99,8 @@ WaterPass::WaterPass(const BrushSheet& lines, const BrushSheet& drops, const Bru
       drops_(upload(drops)),
       line_program_(stroke_program(0)),
       surface_program_(program("water", embedded::surface_vert, embedded::surface_frag, {})),
-      stroke_array_(vertex_array()),
-      surface_array_(vertex_array()) {
+      stroke_array_(gl::make_vertex_array()),
+      surface_array_(gl::make_vertex_array()) {
   if (own.layers > 0) {
     own_ = upload(own);
     own_program_ = stroke_program(std::min(own.layers, 4));
@@ -131,7 +125,8 @@ void WaterPass::show(std::span<const PaintedSurface> surfaces, std::span<const S
                      std::span<const Stroke> drops) {
   shown_.assign(surfaces.begin(), surfaces.end());
   over_ = over, drops_shown_ = drops;
-  while (targets_.size() < shown_.size()) targets_.push_back(std::make_unique<PaintTarget>());
+  while (targets_.size() < shown_.size())
+    targets_.emplace_back(std::vector<GLenum>{GL_RGBA8}, gl::TextureTarget::Depth::None);
   if (grounds_.size() < shown_.size()) grounds_.resize(shown_.size());
 }
 
@@ -188,7 +183,7 @@ void WaterPass::draw_aside(const passes::View&, const passes::PixelRect& rect) {
   glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
   glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
   for (std::size_t i = 0; i < shown_.size(); ++i) {
-    targets_[i]->begin(rect.width_px, rect.height_px);
+    targets_[i].begin(rect.width_px, rect.height_px);
     if (own_) {
       draw_strokes(shown_[i].strokes, own_program_, own_, rect, passes::near_m);
     } else {
@@ -220,7 +215,7 @@ void WaterPass::draw(const passes::View& view, const passes::PixelRect& rect) {
     world_from_surface[3] = glm::dvec4(origin, 1);
     const glm::mat4 clip(passes::clip_from_view(view, rect) * to_matrix(view.camera_from_world) * world_from_surface);
     glUniformMatrix4fv(clip_from_surface_, 1, GL_FALSE, glm::value_ptr(clip));
-    glBindTextureUnit(0, targets_[i]->texture());
+    glBindTextureUnit(0, targets_[i].colour(0));
     const ReferencePicture* ground = shown_[i].ground;
     const bool grounded = ground != nullptr && !ground->empty() && shown_[i].ground_opacity > 0;
     glUniform1f(ground_opacity_, grounded ? shown_[i].ground_opacity : 0);

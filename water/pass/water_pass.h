@@ -1,6 +1,5 @@
 #pragma once
 
-#include <memory>
 #include <span>
 #include <vector>
 
@@ -9,9 +8,9 @@
 #include "pipeline/gl/buffer.h"
 #include "pipeline/gl/handle.h"
 #include "pipeline/gl/program.h"
+#include "pipeline/gl/texture_target.h"
 #include "pipeline/passes/scene_pass.h"
 #include "water/brushes.h"
-#include "water/pass/paint_target.h"
 #include "water/reference_picture.h"
 #include "water/strokes.h"
 #include "water/surface.h"
@@ -70,8 +69,8 @@ class WaterPass : public passes::ScenePass {
   };
   void upload_ground(const ReferencePicture& picture, Ground& ground);
 
-  std::vector<std::unique_ptr<PaintTarget>> targets_;  // of each surface
-  std::vector<Ground> grounds_;                        // likewise
+  std::vector<gl::TextureTarget> targets_;  // of each surface
+  std::vector<Ground> grounds_;             // likewise
   std::vector<std::uint8_t> ground_texels_;
   std::vector<PaintedSurface> shown_;
   std::span<const Stroke> over_, drops_shown_;

@@ -18,12 +18,6 @@
 namespace rinkaku::fluffy {
 namespace {
 
-gl::VertexArrayHandle make_array() {
-  GLuint name = 0;
-  glCreateVertexArrays(1, &name);
-  return gl::VertexArrayHandle(name);
-}
-
 using Defines = std::vector<std::string_view>;
 
 }  // namespace
@@ -57,7 +51,7 @@ FluffyPass::FluffyPass(passes::DrawnObject& object, const Frame& frame, const Tr
       layers_(static_cast<std::uint32_t>(image.layers)),
       longest_at_rest_m_(frame.longest_m * (1.0 + glm::length(options.hang))),
       vertices_(std::as_bytes(std::span<const GpuVertex>(vertices_of(frame)))),
-      array_(make_array()),
+      array_(gl::make_vertex_array()),
       image_(image.width_px, image.height_px, image.layers, image.rgba),
       fluff_(options.bands > 0 ? Defines{"LIT"} : Defines{}) {
   if (options.cut_on_gpu) {

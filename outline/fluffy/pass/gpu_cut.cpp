@@ -20,10 +20,9 @@ gl::Program make_program() {
 }
 
 gl::VertexArrayHandle array_with(const gl::StorageBuffer& indices) {
-  GLuint name = 0;
-  glCreateVertexArrays(1, &name);
-  glVertexArrayElementBuffer(name, indices.name());
-  return gl::VertexArrayHandle(name);
+  gl::VertexArrayHandle array = gl::make_vertex_array();
+  glVertexArrayElementBuffer(array.name(), indices.name());
+  return array;
 }
 
 }  // namespace

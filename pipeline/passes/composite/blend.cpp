@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "pipeline/frame/colour_matrix.h"
+#include "pipeline/passes/composite/wide.h"
 
 namespace rinkaku::passes {
 namespace {
@@ -21,14 +22,6 @@ struct BlockRow {
   const std::int16_t* alpha;
   int blocks;
 };
-
-// The inner loops are compiled for wider registers as well and chosen when the program starts. (Sanitizers run too late
-// for that choice.) Results are the same to the last bit: nothing is contracted or reordered.
-#if defined(__x86_64__) && !defined(RINKAKU_SANITIZED)
-#define RINKAKU_WIDE __attribute__((target_clones("avx2", "default")))
-#else
-#define RINKAKU_WIDE
-#endif
 
 // Adds one row of premultiplied pixels to sums, pixel by pixel.
 RINKAKU_WIDE void add_row(const std::uint8_t* rgba, int pixels, std::int16_t* red, std::int16_t* green,

@@ -6,15 +6,10 @@
 #include <cstring>
 #include <utility>
 
+#include "pipeline/passes/composite/wide.h"
+
 namespace rinkaku::passes {
 namespace {
-
-// The inner loops are compiled for wider registers as well and chosen when the program starts, as in blend.cpp.
-#if defined(__x86_64__) && !defined(RINKAKU_SANITIZED)
-#define RINKAKU_WIDE __attribute__((target_clones("avx2", "default")))
-#else
-#define RINKAKU_WIDE
-#endif
 
 // value / 255, rounded, for value in 0..65025.
 inline int over_255(int value) { return (value + 128 + ((value + 128) >> 8)) >> 8; }

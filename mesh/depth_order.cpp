@@ -1,9 +1,13 @@
-#include "water/depth_order.h"
+#include "mesh/depth_order.h"
 
 #include <algorithm>
 #include <array>
 
-namespace rinkaku::water {
+namespace rinkaku::mesh {
+
+void DepthOrder::reserve(std::size_t depths) {
+  keys_.reserve(depths), other_keys_.reserve(depths), order_.reserve(depths), other_order_.reserve(depths);
+}
 
 std::span<const std::uint32_t> DepthOrder::farthest_first(std::span<const float> depths_m) {
   const std::size_t n = depths_m.size();
@@ -35,4 +39,4 @@ std::span<const std::uint32_t> DepthOrder::farthest_first(std::span<const float>
   return order_;
 }
 
-}  // namespace rinkaku::water
+}  // namespace rinkaku::mesh

@@ -1,4 +1,4 @@
-#include "water/depth_order.h"
+#include "mesh/depth_order.h"
 
 #include <algorithm>
 #include <numeric>
@@ -21,13 +21,13 @@ TEST(DepthOrder, IsThatOfAStableSort) {
   std::iota(expected.begin(), expected.end(), 0u);
   std::stable_sort(expected.begin(), expected.end(),
                    [&](std::uint32_t a, std::uint32_t b) { return depths[a] > depths[b]; });
-  water::DepthOrder order;
+  mesh::DepthOrder order;
   const auto found = order.farthest_first(depths);
   EXPECT_TRUE(std::equal(found.begin(), found.end(), expected.begin(), expected.end()));
 }
 
 TEST(DepthOrder, TakesNoneOneAndEqualOnes) {
-  water::DepthOrder order;
+  mesh::DepthOrder order;
   EXPECT_TRUE(order.farthest_first({}).empty());
   const std::vector<float> one{3}, same(5, 2.5f);
   EXPECT_EQ(order.farthest_first(one).size(), 1u);
