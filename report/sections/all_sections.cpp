@@ -14,6 +14,7 @@ std::span<const ListedSection> all_sections() {
       ListedSection{"water", "Water", water_section},
       ListedSection{"whole", "The whole", whole_section},
       ListedSection{"left_out", "Leaving out", left_out_section},
+      ListedSection{"extremes", "Extreme cases", extreme_section},
   };
   return sections;
 }

@@ -32,6 +32,9 @@ Section whole_section(const Settings& settings);
 /// What each thing that a scene may have costs beyond a scene without it.
 Section left_out_section(const Settings& settings);
 
+/// What no scene should hold, and what comes of it.
+Section extreme_section(const Settings& settings);
+
 /// A section by name.
 struct ListedSection {
   const char* id;  ///< a word
