@@ -4,7 +4,7 @@
 #include <glm/geometric.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "pipeline/track/make_tracker.h"
+#include "pipeline/track/marker_tracker.h"
 #include "tests/pipeline/track/track_test_support.h"
 
 namespace rinkaku::track {
@@ -85,7 +85,9 @@ TEST(ExtremeMarker, HalfOutsideIsNotFoundAndComesBackWhereItIs) {
     } else if (pose) {
       EXPECT_LT(corner_distance_px(webcam(), board, truth, pose->camera_from_world), 0.5) << i;
     }
-    if (i == 0 || i == 8) EXPECT_TRUE(pose) << i;
+    if (i == 0 || i == 8) {
+      EXPECT_TRUE(pose) << i;
+    }
   }
 }
 

@@ -64,6 +64,33 @@ TEST(VideoSource, FrameIsTheDecodersOwnMemory) {
   EXPECT_EQ(test::samples(*kept), before);
 }
 
+// Pictures of a megabyte and more lie in memory of our own: every codec, size and layout as ffmpeg decodes it.
+TEST(VideoSource, LargePicturesAreWhatFfmpegDecodes) {
+  const test::TemporaryFolder folder;
+  const std::pair<const char*, const char*> kinds[] = {{"mpeg4 -bf 2", "yuv420p"},
+                                                       {"libx264 -preset ultrafast -bf 2", "yuv420p10le"},
+                                                       {"libx264 -preset ultrafast", "yuv444p"},
+                                                       {"ffv1", "yuv422p"},
+                                                       {"mjpeg", "yuvj422p"},
+                                                       {"ffvhuff", "rgb24"},
+                                                       {"rawvideo", "uyvy422"},
+                                                       {"png", "rgba"}};
+  for (const auto& [codec, pixels] : kinds) {
+    for (const char* size : {"1920x1080", "1283x919"}) {
+      const std::string path = folder / "a.nut";
+      test::ffmpeg(std::string("-f lavfi -i testsrc2=size=") + size + ":rate=25 -frames:v 6 -pix_fmt " + pixels +
+                   " -strict -1 -c:v " + codec + " '" + path + "'");
+      const auto source = source::open(path);
+      std::string got;
+      std::vector<Frame> kept;  // none is written over by a later one
+      while (std::optional<Frame> frame = source->next()) kept.push_back(std::move(*frame));
+      for (const Frame& frame : kept) got += test::samples(frame);
+      EXPECT_TRUE(test::decoded_by_ffmpeg(path) == got) << codec << " " << pixels << " " << size;
+      EXPECT_EQ(source->damage(), "");
+    }
+  }
+}
+
 // Writing into frames at once must not reach what the decoder predicts from, whether or not it still holds them.
 TEST(VideoSource, FramesMadeWritableAreNotWhatLaterOnesArePredictedFrom) {
   const test::TemporaryFolder folder;
@@ -110,6 +137,24 @@ TEST(VideoSource, FrameThatTheDecoderLetGoIsWrittenWithoutACopy) {
   const Frame copy = *first;
   pool.make_writable(*first);
   EXPECT_NE(first->planes[0].data, copy.planes[0].data);
+}
+
+// From a size at which memory is our own to one at which it is the decoder's, and back, while frames are held.
+TEST(VideoSource, MemoryFollowsTheSizeOfThePictures) {
+  const test::TemporaryFolder folder;
+  std::string parts;
+  for (const char* size : {"1280x960", "64x48", "1920x1080", "1280x960"}) {
+    const std::string part = folder / (std::string(size) + ".m4v");
+    test::ffmpeg(std::string("-f lavfi -i testsrc2=size=") + size + ":rate=25 -frames:v 5 -c:v mpeg4 -f m4v '" + part +
+                 "'");
+    parts += " '" + part + "'";
+  }
+  test::shell("cat" + parts + " >'" + (folder / "a.m4v").string() + "'");
+  const auto source = source::open(folder / "a.m4v");
+  const auto frames = test::all_frames(*source);
+  EXPECT_EQ(frames.size(), 20u);
+  for (const Frame& frame : frames) EXPECT_EQ(frame.format.width_px, 1280);
+  EXPECT_EQ(test::samples(frames[1]), test::samples(frames[16])) << "the same second picture";
 }
 
 TEST(VideoSource, TellsColourAspectAndInterlacing) {
