@@ -98,6 +98,21 @@ TEST_F(ReportCommand, ExactMattesDifferInNoPixel) {
   EXPECT_GE(others, 4);
 }
 
+TEST_F(ReportCommand, ExtremeCasesEndAsTheyShould) {
+  const test::CliResult got = test::run_rinkaku(folder_, "report -o out --quick --sections extremes");
+  ASSERT_EQ(got.status, 0) << got.err;
+  const std::string table = test::text_of(folder_.path() / "out/extremes.csv");
+  EXPECT_FALSE(contains(table, "WRONG")) << table;
+  const auto times = [&table](const std::string& word) {
+    int found = 0;
+    for (std::size_t at = 0; (at = table.find(word, at)) != std::string::npos; ++at) ++found;
+    return found;
+  };
+  EXPECT_GE(times(",right,"), 40);
+  EXPECT_GE(times(",refused,"), 10);
+  EXPECT_TRUE(contains(test::text_of(folder_.path() / "out/index.html"), "cases ended as they should"));
+}
+
 TEST_F(ReportCommand, SectionThatCannotRunSaysSoAndTheOthersDo) {
   std::filesystem::create_directories(folder_.path() / "nothing");
   const test::CliResult got =
