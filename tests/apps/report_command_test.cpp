@@ -148,8 +148,12 @@ TEST_F(ReportCommand, BadCallsSayOneLineAndWriteNothing) {
 
 TEST_F(ReportCommand, InterruptedLeavesNothing) {
   const auto before = test::contents(folder_.path());
-  const test::CliResult got = test::run_shell(
-      folder_.path(), "\"$RINKAKU\" report -o out --sections curvature & sleep 0.5; kill -INT $!; wait $!");
+  const test::CliResult got =
+      test::run_shell(folder_.path(),
+                      "\"$RINKAKU\" report -o out --sections curvature & "
+                      // Until it listens: a shell starts what runs beside it with SIGINT ignored.
+                      "until grep -qE '^SigCgt:.*[2367abef]$' /proc/$!/status; do sleep 0.05; done; "
+                      "kill -INT $!; wait $!");
   EXPECT_EQ(got.status, 1) << got.err;
   EXPECT_TRUE(contains(got.err, "interrupted")) << got.err;
   EXPECT_EQ(test::contents(folder_.path()), before);
