@@ -1,6 +1,6 @@
 // Frames a second of every way of drawing lines, as parts of the uniform hull's (Raskar and Cohen), for a bumpy ring of
-// as many vertices as the rows of tables 3.2 and 4.2 of Matsuo's thesis have, at 1024x768. The ways take turns frame by
-// frame, so that what else the machine does falls on all of them alike; medians count.
+// as many vertices as the rows of tables 3.2, 3.3, 4.2 and 4.3 of Matsuo's thesis have, at 1024x768. The ways take
+// turns frame by frame, so that what else the machine does falls on all of them alike; medians count.
 //
 //   rinkaku-bench-outlines [FRAMES [MOST_VERTICES]]
 
@@ -17,10 +17,12 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "mesh/topology.h"
+#include "outline/control_points.h"
 #include "outline/curvature.h"
 #include "outline/line_width.h"
 #include "pipeline/frame/error.h"
 #include "pipeline/gl/context.h"
+#include "pipeline/objects/control_line.h"
 #include "pipeline/objects/lone_mesh.h"
 #include "report/sections/shapes.h"
 
@@ -69,6 +71,13 @@ std::vector<Way> ways_for(const mesh::Mesh& mesh) {
     line.taper_px = pipeline::usual_taper_px(named.method);
     if (pipeline::brings_inner_lines(named.method)) line.style.inner.emplace();
     ways.push_back({named.word, renderer_of(mesh, line), [] {}});
+    if (named.method == pipeline::LineMethod::Control) {
+      // The thesis's chapter 3 with a shape that changes every frame: features and their widths anew.
+      auto topology = std::make_shared<mesh::Topology>(mesh::topology(mesh));
+      auto widths = std::make_shared<outline::ControlWidths>(pipeline::control_widths(line, *topology, glm::dmat4(1)));
+      ways.push_back(
+          {"control each frame", renderer_of(mesh, line), [topology, widths] { widths->at(topology->points); }});
+    }
     if (named.method != pipeline::LineMethod::Curvature) continue;
     // What a shape that changes every frame costs more: its curvature, and the widths that follow it.
     auto topology = std::make_shared<mesh::Topology>(mesh::topology(mesh));

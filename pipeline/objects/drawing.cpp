@@ -1,5 +1,6 @@
 #include "pipeline/objects/drawing.h"
 
+#include <cmath>
 #include <filesystem>
 #include <functional>
 #include <future>
@@ -9,6 +10,8 @@
 #include <tuple>
 #include <utility>
 
+#include <glm/mat3x3.hpp>
+#include <glm/matrix.hpp>
 #include <glm/vec3.hpp>
 
 #include "mesh/topology.h"
@@ -75,13 +78,15 @@ void paint_with_curvature(mesh::Mesh& mesh) {
 
 PreparedObject prepare(mesh::Imported imported, const Scene& scene, std::size_t number, Paint paint) {
   const LightScene& light = scene.light;
-  ObjectScene object = with_file_line(scene.objects[number], imported.mesh, scene.plate.camera);
+  const glm::dmat4 place =
+      world_from_object(scene.objects[number], mesh::bounding_box(imported.mesh.positions), imported.summary.up);
+  const double unit_m = std::cbrt(std::abs(glm::determinant(glm::dmat3(place))));
+  ObjectScene object = with_file_line(scene.objects[number], imported.mesh, unit_m, scene.plate.camera);
   const std::vector<float> weights = line_weights(object, imported.mesh);
   give_colour(imported.mesh, object);
   const bool painted = paint == Paint::Curvature && !object.holdout;
   if (painted) paint_with_curvature(imported.mesh);
   const mesh::Mesh& mesh = imported.mesh;
-  const glm::dmat4 place = world_from_object(object, mesh::bounding_box(mesh.positions), imported.summary.up);
   passes::ToonOptions toon = toon_options(object, light);
   if (painted) toon.bands = 0;
   passes::ObjectShape shape(mesh, place, passes::band_borders(mesh, place, toon));

@@ -31,13 +31,14 @@ MaterialLine most_common(const mesh::Mesh& mesh) {
   return found;
 }
 
-void take_width(OutlineScene& outline, const mesh::Mesh& mesh, Unit unit, const std::filesystem::path& camera) {
+void take_width(OutlineScene& outline, const mesh::Mesh& mesh, Unit unit, double unit_m,
+                const std::filesystem::path& camera) {
   float widest = 0;
   for (const mesh::Material& material : mesh.materials) {
     if (has_line(material) && material.line->unit == unit) widest = std::max(widest, material.line->width);
   }
   if (unit == Unit::Metres) {
-    outline.width_m = widest;
+    outline.width_m = widest * unit_m;
   } else {
     outline.width_px = static_cast<double>(widest) * track::read_camera(camera).height_px;
   }
@@ -54,7 +55,8 @@ void take_width(OutlineScene& outline, const mesh::Mesh& mesh, Unit unit, const 
 
 }  // namespace
 
-ObjectScene with_file_line(ObjectScene object, const mesh::Mesh& mesh, const std::filesystem::path& camera) {
+ObjectScene with_file_line(ObjectScene object, const mesh::Mesh& mesh, double unit_m,
+                           const std::filesystem::path& camera) {
   if (!object.outline) return object;
   std::uint64_t metres = 0, heights = 0;
   for (const mesh::Part& part : mesh.parts) {
@@ -64,7 +66,7 @@ ObjectScene with_file_line(ObjectScene object, const mesh::Mesh& mesh, const std
   }
   if (metres + heights == 0) return object;
   const Unit unit = metres >= heights ? Unit::Metres : Unit::PictureHeights;
-  if (!object.outline->own_width) take_width(*object.outline, mesh, unit, camera);
+  if (!object.outline->own_width) take_width(*object.outline, mesh, unit, unit_m, camera);
   if (!object.outline->own_colour) {
     const glm::vec3 ink = most_common(mesh).colour;
     object.outline->colour = {ink.r, ink.g, ink.b};

@@ -35,9 +35,9 @@ pipeline::ObjectScene outlined() {
 }
 
 TEST(FileLine, IsTakenWhereTheSceneSaysNothing) {
-  const pipeline::ObjectScene object = with_file_line(outlined(), figure(Unit::Metres, Unit::Metres), {});
+  const pipeline::ObjectScene object = with_file_line(outlined(), figure(Unit::Metres, Unit::Metres), 0.5, {});
   ASSERT_TRUE(object.outline->width_m);
-  EXPECT_NEAR(*object.outline->width_m, 0.02, 1e-8);
+  EXPECT_NEAR(*object.outline->width_m, 0.01, 1e-8);  // a unit of the mesh is half a metre
   ASSERT_EQ(object.outline->weight.of_file.size(), 3u);
   EXPECT_NEAR(object.outline->weight.of_file[0], 0.5, 1e-6);
   EXPECT_EQ(object.outline->weight.of_file[1], 1);
@@ -49,7 +49,7 @@ TEST(FileLine, SceneOverridesWidthAndColour) {
   pipeline::ObjectScene object = outlined();
   object.outline->own_width = object.outline->own_colour = true;
   object.outline->width_px = 5;
-  object = with_file_line(std::move(object), figure(Unit::Metres, Unit::Metres), {});
+  object = with_file_line(std::move(object), figure(Unit::Metres, Unit::Metres), 1, {});
   EXPECT_FALSE(object.outline->width_m);
   EXPECT_EQ(object.outline->width_px, 5);
   EXPECT_TRUE(object.outline->weight.of_file.empty());
@@ -60,7 +60,7 @@ TEST(FileLine, MaterialsOfTheSceneCountBeforeTheFiles) {
   const mesh::Mesh mesh = figure(Unit::Metres, Unit::Metres);
   pipeline::ObjectScene object = outlined();
   for (const char* name : {"skin", "hair", "eye"}) object.outline->weight.materials.push_back({name, 1.5});
-  object = with_file_line(std::move(object), mesh, {});
+  object = with_file_line(std::move(object), mesh, 1, {});
   for (const float weight : line_weights(object, mesh)) EXPECT_FLOAT_EQ(weight, 1.5f);
 }
 
@@ -72,7 +72,7 @@ TEST(FileLine, PartsOfThePictureAreItsCamerasPixels) {
                                           "distortion_coefficients: !!opencv-matrix\n   rows: 1\n   cols: 5\n   dt: d\n"
                                           "   data: [ 0., 0., 0., 0., 0. ]\n";
   const mesh::Mesh mesh = figure(Unit::PictureHeights, Unit::Metres);
-  const pipeline::ObjectScene object = with_file_line(outlined(), mesh, folder / "camera.yml");
+  const pipeline::ObjectScene object = with_file_line(outlined(), mesh, 1, folder / "camera.yml");
   EXPECT_FALSE(object.outline->width_m);
   EXPECT_NEAR(object.outline->width_px, 7.2, 1e-4);
   EXPECT_EQ(object.outline->weight.of_file[1], 1);  // in another unit than most of the surface
@@ -80,12 +80,12 @@ TEST(FileLine, PartsOfThePictureAreItsCamerasPixels) {
 
 TEST(FileLine, MeshesThatSayNothingChangeNothing) {
   mesh::Mesh mesh = figure(Unit::None, Unit::None);
-  const pipeline::ObjectScene object = with_file_line(outlined(), mesh, {});
+  const pipeline::ObjectScene object = with_file_line(outlined(), mesh, 1, {});
   EXPECT_EQ(object.outline->width_px, 3);
   EXPECT_FALSE(object.outline->width_m);
   EXPECT_TRUE(object.outline->weight.of_file.empty());
   pipeline::ObjectScene without;
-  EXPECT_FALSE(with_file_line(without, figure(Unit::Metres, Unit::Metres), {}).outline);
+  EXPECT_FALSE(with_file_line(without, figure(Unit::Metres, Unit::Metres), 1, {}).outline);
 }
 
 }  // namespace
