@@ -106,6 +106,30 @@ TEST_P(RealClosedMeshes, HaveNoGapInTheirLines) {
   }
 }
 
+// The 67th of 500 sides on a golden spiral, with one contour some pixels before another: the body's coarser triangles
+// there once hid the inner half of the farther one's line.
+TEST_F(LineWalk, CoarserBodiesHideNoLineBehindThem) {
+  RINKAKU_NEEDS_DATA();
+  mesh::Mesh mesh = mesh::import(data("meshes/closed/oded_penguin_27k.obj")).mesh;
+  mesh.colours.clear(), mesh.textures.clear();
+  for (mesh::Material& material : mesh.materials) material = {};
+  const mesh::Topology topology = mesh::topology(mesh);
+  constexpr int side = 66;
+  const double height = 1 - (2 * side + 1.0) / 500, around = std::acos(-1.0) * (3 - std::sqrt(5.0)) * side;
+  const double across = std::sqrt(1 - height * height);
+  const glm::dvec3 ahead(-across * std::cos(around), -height, -across * std::sin(around));
+  const glm::dvec3 right = glm::normalize(glm::cross(ahead, {std::cos(2.0 * side), 0.3, std::sin(2.0 * side)}));
+  const glm::dmat3 turn = glm::transpose(glm::dmat3(right, glm::cross(ahead, right), ahead));
+  const mesh::Sphere ball = mesh::bounding_sphere(mesh.positions);
+  const glm::dmat4 place =
+      moved(0, 0, 4) * glm::dmat4(turn) * scaled(1 / ball.radius) * glm::translate(glm::dmat4(1), -ball.centre);
+  const passes::View v = view(512, 512, 0.43 * 512 * std::sqrt(15.0));
+  const Layer layer = drawn(scene_of(lined(mesh, place, 3)), v);
+  const WalkedLine walked = LineWalker(mesh, topology).walk(v, place, layer);
+  EXPECT_EQ(walked.gaps(), 0u);
+  EXPECT_GT(walked.places, 1000u);
+}
+
 INSTANTIATE_TEST_SUITE_P(Meshes, RealClosedMeshes,
                          testing::Values("oded_spot_23k.obj", "pmp_fandisk_13k.off", "cgal_elephant_5k6.off"));
 
