@@ -1,14 +1,14 @@
-// Frames a second of every way of drawing lines, as parts of the uniform hull's (Raskar and Cohen), for a bumpy ring of
-// as many vertices as the rows of tables 3.2 and 4.2 of Matsuo's thesis have, at 1024x768. The ways take turns frame by
-// frame, so that what else the machine does falls on all of them alike; medians count.
+// The speed of every way of drawing lines, as part of the uniform hull's (Raskar and Cohen), for a bumpy ring of
+// as many vertices as the rows of tables 3.2, 3.3, 4.2 and 4.3 of Matsuo's thesis have, at 1024x768. The ways take
+// turns frame by frame, so that what else the machine does falls on all of them alike; medians count.
 //
 //   rinkaku-bench-outlines [FRAMES [MOST_VERTICES]]
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <ctime>
 #include <functional>
 #include <memory>
 #include <string>
@@ -17,10 +17,12 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "mesh/topology.h"
+#include "outline/control_points.h"
 #include "outline/curvature.h"
 #include "outline/line_width.h"
 #include "pipeline/frame/error.h"
 #include "pipeline/gl/context.h"
+#include "pipeline/objects/control_line.h"
 #include "pipeline/objects/lone_mesh.h"
 #include "report/sections/shapes.h"
 
@@ -69,6 +71,13 @@ std::vector<Way> ways_for(const mesh::Mesh& mesh) {
     line.taper_px = pipeline::usual_taper_px(named.method);
     if (pipeline::brings_inner_lines(named.method)) line.style.inner.emplace();
     ways.push_back({named.word, renderer_of(mesh, line), [] {}});
+    if (named.method == pipeline::LineMethod::Control) {
+      // The thesis's chapter 3 with a shape that changes every frame: features and their widths anew.
+      auto topology = std::make_shared<mesh::Topology>(mesh::topology(mesh));
+      auto widths = std::make_shared<outline::ControlWidths>(pipeline::control_widths(line, *topology, glm::dmat4(1)));
+      ways.push_back(
+          {"control each frame", renderer_of(mesh, line), [topology, widths] { widths->at(topology->points); }});
+    }
     if (named.method != pipeline::LineMethod::Curvature) continue;
     // What a shape that changes every frame costs more: its curvature, and the widths that follow it.
     auto topology = std::make_shared<mesh::Topology>(mesh::topology(mesh));
@@ -81,6 +90,13 @@ std::vector<Way> ways_for(const mesh::Mesh& mesh) {
   }
   ways.push_back({"none", renderer_of(mesh, std::nullopt), [] {}});
   return ways;
+}
+
+// Of all threads: what else the machine does is not in it.
+double cpu_ms() {
+  timespec t{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
+  return static_cast<double>(t.tv_sec) * 1e3 + static_cast<double>(t.tv_nsec) * 1e-6;
 }
 
 double median(std::vector<double> values) {
@@ -96,17 +112,16 @@ void measure(std::size_t vertices, int frames, bool header) {
   for (int frame = 0; frame < frames + warm; ++frame) {
     const passes::View view = view_of(frame);
     for (Way& way : ways) {
-      const auto start = std::chrono::steady_clock::now();
+      const double start_ms = cpu_ms();
       way.before_each_frame();
       way.renderer->draw(view, layer);
-      const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - start;
-      if (frame >= warm) way.ms.push_back(took.count());
+      if (frame >= warm) way.ms.push_back(cpu_ms() - start_ms);
     }
   }
   const auto hull = std::find_if(ways.begin(), ways.end(), [](const Way& way) { return way.name == "hull"; });
   const double hull_ms = median(hull->ms);
   if (header) {
-    std::printf("| vertices | hull, fps |");
+    std::printf("| vertices | hull, ms |");
     for (const Way& way : ways) {
       if (way.name != "hull") std::printf(" %s |", way.name.c_str());
     }
@@ -114,7 +129,7 @@ void measure(std::size_t vertices, int frames, bool header) {
     for (std::size_t i = 1; i < ways.size(); ++i) std::printf(" --- |");
     std::printf("\n");
   }
-  std::printf("| %u | %.1f |", mesh.point_count, 1000 / hull_ms);
+  std::printf("| %u | %.2f |", mesh.point_count, hull_ms);
   for (const Way& way : ways) {
     if (way.name != "hull") std::printf(" %.2f |", hull_ms / median(way.ms));
   }
@@ -129,8 +144,9 @@ int main(int argc, char** argv) {
   const std::size_t most = argc > 2 ? static_cast<std::size_t>(std::max(std::atoi(argv[2]), 0)) : 100000;
   try {
     const auto context = gl::Context::headless();
-    std::printf("%s, %dx%d, medians of %d frames; frames a second as parts of the uniform hull's\n\n",
-                context->renderer().c_str(), kWidth_px, kHeight_px, frames);
+    std::printf(
+        "%s, %dx%d, medians of %d frames, processor time of all threads; speeds as parts of the uniform hull's\n\n",
+        context->renderer().c_str(), kWidth_px, kHeight_px, frames);
     bool header = true;
     for (const std::size_t vertices : {503, 1170, 2082, 3242, 485, 4250, 15859, 28741, 63576}) {
       if (vertices > most) continue;

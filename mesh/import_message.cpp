@@ -8,7 +8,7 @@
 namespace rinkaku::mesh {
 namespace {
 
-constexpr std::uint32_t kMagic = 0x324d4b52;  // "RKM2"
+constexpr std::uint32_t kMagic = 0x334d4b52;  // "RKM3"
 enum class Content : std::uint32_t { Mesh = 1, Failure = 2 };
 
 void put_summary(MessageWriter& out, const ImportSummary& s) {
@@ -74,6 +74,11 @@ void put_mesh(MessageWriter& out, const Mesh& m) {
     out.put(static_cast<std::uint8_t>(material.two_sided));
     out.put(static_cast<std::uint8_t>(material.alpha));
     out.put(material.alpha_cutoff);
+    const MaterialLine line = material.line.value_or(MaterialLine{});
+    out.put(static_cast<std::uint8_t>(material.line.has_value()));
+    out.put(static_cast<std::uint8_t>(line.unit));
+    out.put(line.width);
+    out.put(line.colour);
   }
   out.put(static_cast<std::uint64_t>(m.textures.size()));
   for (const Texture& texture : m.textures) {
@@ -108,6 +113,15 @@ Mesh get_mesh(MessageReader& in) {
     const auto alpha = in.get<std::uint8_t>();
     material.alpha = alpha == 1 ? Material::Alpha::Mask : alpha == 2 ? Material::Alpha::Blend : Material::Alpha::Opaque;
     material.alpha_cutoff = in.get<float>();
+    const bool has_line = in.get<std::uint8_t>() != 0;
+    MaterialLine line;
+    const auto unit = in.get<std::uint8_t>();
+    line.unit = unit == 1   ? MaterialLine::Unit::Metres
+                : unit == 2 ? MaterialLine::Unit::PictureHeights
+                            : MaterialLine::Unit::None;
+    line.width = in.get<float>();
+    line.colour = in.get<glm::vec3>();
+    if (has_line) material.line = line;
   }
   m.textures.resize(in.length(sizeof(std::uint64_t)));
   for (Texture& texture : m.textures) {
@@ -152,6 +166,8 @@ bool sound(const Mesh& m) {
   for (const Material& material : m.materials) {
     if (material.texture < -1 || material.texture >= static_cast<std::int64_t>(m.textures.size())) return false;
     if (!all_finite(std::vector{material.base_colour}) || !std::isfinite(material.alpha_cutoff)) return false;
+    const MaterialLine line = material.line.value_or(MaterialLine{});
+    if (!std::isfinite(line.width) || line.width < 0 || !all_finite(std::vector{line.colour})) return false;
   }
   for (const Texture& t : m.textures) {
     if (t.width_px <= 0 || t.height_px <= 0) return false;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,13 @@ struct Texture {
   std::vector<std::uint8_t> rgba;
 };
 
+/// The outline that a material's file asks for, as VRM's MToon has it.
+struct MaterialLine {
+  enum class Unit { None, Metres, PictureHeights } unit = Unit::None;  ///< None: without an outline
+  float width = 0;
+  glm::vec3 colour{0};  ///< sRGB-encoded
+};
+
 struct Material {
   std::string name;
   glm::vec4 base_colour{1, 1, 1, 1};  ///< sRGB-encoded, straight alpha; multiplies the texture
@@ -24,6 +32,7 @@ struct Material {
   bool two_sided = false;
   enum class Alpha { Opaque, Mask, Blend } alpha = Alpha::Opaque;
   float alpha_cutoff = 0.5f;
+  std::optional<MaterialLine> line{};  ///< if the file says anything about it
 };
 
 /// A run of triangles with one material.

@@ -34,8 +34,9 @@ class MessageWriter {
  private:
   void append(const void* data, std::size_t size) {
     if (size == 0) return;
-    const auto* first = static_cast<const std::uint8_t*>(data);
-    bytes.insert(bytes.end(), first, first + size);
+    const std::size_t before = bytes.size();
+    bytes.resize(before + size);
+    std::memcpy(bytes.data() + before, data, size);
   }
 };
 

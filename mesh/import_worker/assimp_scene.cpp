@@ -17,6 +17,7 @@
 
 #include "mesh/import_message.h"
 #include "mesh/import_worker/materials.h"
+#include "mesh/import_worker/mtoon.h"
 #include "mesh/import_worker/read_file.h"
 #include "mesh/import_worker/rig_reader.h"
 
@@ -117,9 +118,11 @@ bool mirrors(const Matrix& m) {
 
 class SceneReader {
  public:
-  SceneReader(const aiScene& scene, const fs::path& folder, const Format& format, bool keep_normals, bool rig)
-      : scene_(scene), format_(format), keep_normals_(keep_normals), textures_(&scene, folder) {
+  SceneReader(const aiScene& scene, const fs::path& file, const Format& format, bool keep_normals, bool rig)
+      : scene_(scene), format_(format), keep_normals_(keep_normals), textures_(&scene, file.parent_path()) {
     if (rig) rig_.emplace(scene);
+    const std::string ending = lower_ending(file);
+    if (ending == ".vrm" || ending == ".glb") lines_ = MtoonLines(read_bytes(file));
   }
 
   ReadScene read() {
@@ -168,6 +171,7 @@ class SceneReader {
     Material material;
     if (index < scene_.mNumMaterials)
       material = read_material(*scene_.mMaterials[index], format_.linear_colours, textures_);
+    material.line = lines_.of(index, material.name);
     // What Assimp adds where a file has none.
     if (material.name == AI_DEFAULT_MATERIAL_NAME || !format_.materials) material.base_colour = kPlainColour;
     result_.soup.materials.push_back(std::move(material));
@@ -314,6 +318,7 @@ class SceneReader {
   Format format_;
   bool keep_normals_;
   TextureReader textures_;
+  MtoonLines lines_;
   std::optional<RigReader> rig_;
   std::vector<Placed> placed_;
   std::unordered_map<std::string, Placed> world_by_name_;
@@ -362,7 +367,7 @@ ReadScene read_with_assimp(const fs::path& file, ImportOptions::Normals normals,
   const aiScene& scene = load(importer, file, ending, bad_faces);
   const bool keep_normals =
       normals == ImportOptions::Normals::File || (normals == ImportOptions::Normals::ByFormat && format.own_normals);
-  ReadScene result = SceneReader(scene, file.parent_path(), format, keep_normals, rig).read();
+  ReadScene result = SceneReader(scene, file, format, keep_normals, rig).read();
   result.summary.format = format.name != nullptr ? format.name : reader_name(importer);
   result.summary.up = up_axis(scene, format);
   result.summary.dropped_bad_index += bad_faces;

@@ -1,5 +1,6 @@
 #include "pipeline/objects/drawing.h"
 
+#include <cmath>
 #include <filesystem>
 #include <functional>
 #include <future>
@@ -9,6 +10,8 @@
 #include <tuple>
 #include <utility>
 
+#include <glm/mat3x3.hpp>
+#include <glm/matrix.hpp>
 #include <glm/vec3.hpp>
 
 #include "mesh/topology.h"
@@ -16,6 +19,7 @@
 #include "outline/curvature_colours.h"
 #include "pipeline/gl/context.h"
 #include "pipeline/objects/animated.h"
+#include "pipeline/objects/file_line.h"
 #include "pipeline/objects/fluff.h"
 #include "pipeline/objects/in_parallel.h"
 #include "pipeline/objects/line_weights.h"
@@ -41,6 +45,7 @@ passes::ToonOptions toon_options(const ObjectScene& object, const LightScene& li
 
 // What of an object needs no GL.
 struct PreparedObject {
+  ObjectScene object;  // with what the mesh's file says of its line
   mesh::Imported imported;
   passes::ToonOptions toon;
   passes::ObjectShape shape;
@@ -71,13 +76,17 @@ void paint_with_curvature(mesh::Mesh& mesh) {
   mesh = outline::painted_with_curvature(std::move(mesh), curvature, outline::k95(curvature));
 }
 
-PreparedObject prepare(mesh::Imported imported, const ObjectScene& object, const LightScene& light, Paint paint) {
+PreparedObject prepare(mesh::Imported imported, const Scene& scene, std::size_t number, Paint paint) {
+  const LightScene& light = scene.light;
+  const glm::dmat4 place =
+      world_from_object(scene.objects[number], mesh::bounding_box(imported.mesh.positions), imported.summary.up);
+  const double unit_m = std::cbrt(std::abs(glm::determinant(glm::dmat3(place))));
+  ObjectScene object = with_file_line(scene.objects[number], imported.mesh, unit_m, scene.plate.camera);
   const std::vector<float> weights = line_weights(object, imported.mesh);
   give_colour(imported.mesh, object);
   const bool painted = paint == Paint::Curvature && !object.holdout;
   if (painted) paint_with_curvature(imported.mesh);
   const mesh::Mesh& mesh = imported.mesh;
-  const glm::dmat4 place = world_from_object(object, mesh::bounding_box(mesh.positions), imported.summary.up);
   passes::ToonOptions toon = toon_options(object, light);
   if (painted) toon.bands = 0;
   passes::ObjectShape shape(mesh, place, passes::band_borders(mesh, place, toon));
@@ -93,7 +102,8 @@ PreparedObject prepare(mesh::Imported imported, const ObjectScene& object, const
   if (object.fluffy) fluff = prepare_fluff(object, mesh, place);
   if (object.fluffy && object.outline) thin_line_under_fluff(line, factors, object, mesh);
   line.factors = factors;
-  return {std::move(imported), toon, std::move(shape), std::move(factors), std::move(line), std::move(fluff)};
+  return {std::move(object), std::move(imported), toon, std::move(shape), std::move(factors),
+          std::move(line),   std::move(fluff)};
 }
 
 // Whether the mesh's file moves it: regions are of its pose at rest.
@@ -139,9 +149,8 @@ std::vector<std::optional<PreparedObject>> prepare_all(const Scene& scene, const
   std::vector<mesh::Imported> imported(distinct.size());
   in_parallel(distinct.size(), [&](std::size_t i) { imported[i] = import_mesh(*distinct[i]); });
   std::vector<std::optional<PreparedObject>> prepared(scene.objects.size());
-  in_parallel(prepared.size(), [&](std::size_t i) {
-    prepared[i].emplace(prepare(imported[import_of[i]], scene.objects[i], scene.light, paint));
-  });
+  in_parallel(prepared.size(),
+              [&](std::size_t i) { prepared[i].emplace(prepare(imported[import_of[i]], scene, i, paint)); });
   use_regions(scene, prepared, regions);
   return prepared;
 }
@@ -178,8 +187,8 @@ std::vector<passes::StyledObject> style(const Scene& scene, std::vector<std::opt
                                         std::vector<std::string>& notices) {
   std::vector<passes::StyledObject> styled;
   for (std::size_t i = 0; i < all.size(); ++i) {
-    const ObjectScene& object = scene.objects[i];
     PreparedObject& prepared = *all[i];
+    const ObjectScene& object = prepared.object;
     for (const std::string& warning : prepared.imported.summary.warnings) {
       notices.push_back(object.mesh.string() + ": " + warning);
     }

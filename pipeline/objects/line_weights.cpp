@@ -69,7 +69,9 @@ void weigh_by_map(const ObjectScene& object, const mesh::Mesh& mesh, std::vector
 }
 
 void weigh_by_material(const ObjectScene& object, const mesh::Mesh& mesh, std::vector<float>& weights) {
-  std::vector<float> of_material(mesh.materials.size(), 1.0f);
+  const std::vector<double>& of_file = object.outline->weight.of_file;
+  std::vector<float> of_material(of_file.begin(), of_file.end());
+  of_material.resize(mesh.materials.size(), 1.0f);
   for (const LineWeightScene::OfMaterial& wanted : object.outline->weight.materials) {
     bool found = false;
     std::string names;
@@ -102,11 +104,11 @@ void weigh_by_material(const ObjectScene& object, const mesh::Mesh& mesh, std::v
 std::vector<float> line_weights(const ObjectScene& object, const mesh::Mesh& mesh) {
   if (!object.outline) return {};
   const LineWeightScene& scene = object.outline->weight;
-  if (!scene.paint && scene.map.empty() && scene.materials.empty()) return {};
+  if (!scene.paint && scene.map.empty() && scene.materials.empty() && scene.of_file.empty()) return {};
   std::vector<float> weights(mesh.point_count, 1.0f);
   if (scene.paint) weigh_by_paint(object, mesh, weights);
   if (!scene.map.empty()) weigh_by_map(object, mesh, weights);
-  if (!scene.materials.empty()) weigh_by_material(object, mesh, weights);
+  if (!scene.materials.empty() || !scene.of_file.empty()) weigh_by_material(object, mesh, weights);
   // A line of no width at all would be a strip without a direction to fade in; this can't be seen.
   constexpr float unseen = 0.002f;
   for (float& weight : weights) weight = std::max(weight, unseen);

@@ -22,8 +22,13 @@ struct LineWeightScene {
     double factor = 1;
   };
   std::vector<OfMaterial> materials;
-  bool any() const { return shade > 0 || paint || !map.empty() || !materials.empty(); }
+  /// What the mesh's file says, for each of its materials, or empty; `materials` counts before it.
+  std::vector<double> of_file;
+  bool any() const { return shade > 0 || paint || !map.empty() || !materials.empty() || !of_file.empty(); }
 };
+
+/// Whether a method's lines can be weighed: whether they are drawn along the contour's points.
+bool can_weigh(LineMethod method);
 
 toml::Schema line_weight_schema();
 

@@ -30,6 +30,13 @@ glm::dvec3 read_scale(const Table& object) {
   return scale;
 }
 
+/// Whether a method's lines run along what was found on the mesh at rest.
+bool is_along_still_mesh(LineMethod method) {
+  using M = LineMethod;
+  return method == M::ZLines || method == M::HiddenLines || method == M::Isophote || method == M::Wobble ||
+         method == M::Strokes;
+}
+
 /// What is made of a mesh at rest can't go with it when it moves.
 void refuse_for_animated(const Table& object, const ObjectScene& scene) {
   if (!scene.animation) return;
@@ -43,12 +50,10 @@ void refuse_for_animated(const Table& object, const ObjectScene& scene) {
                           "give cut = \"exact\" or \"gpu\"");
   }
   if (!scene.outline) return;
-  const LineMethod method = scene.outline->method;
-  const bool follows =
-      method == LineMethod::Uniform || method == LineMethod::Curvature || method == LineMethod::Control;
-  if (!follows || scene.outline->style.inner) {
+  if (is_along_still_mesh(scene.outline->method) || scene.outline->style.inner) {
     throw object.error_at("outline", "has lines that need a mesh that stands still, but the object has 'animation'",
-                          "take the method \"uniform\", \"curvature\" or \"control\", without inner lines");
+                          "take another method than \"z_lines\", \"hidden_lines\", \"isophote\", \"wobble\" and "
+                          "\"strokes\", without inner lines");
   }
 }
 

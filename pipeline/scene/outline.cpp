@@ -29,6 +29,7 @@ void read_method(const Table& outline, OutlineScene& scene) {
 
 void read_width(const Table& outline, OutlineScene& scene) {
   outline.exclude("width_px", "width_m");
+  scene.own_width = outline.has("width_px") || outline.has("width_m");
   scene.width_px = outline.number("width_px", Limits::above(0, 100)).value_or(scene.width_px);
   scene.width_m = outline.number("width_m", Limits::above(0, 1000));
   for (const std::string_view key : {"min_px", "max_px"}) {
@@ -98,6 +99,7 @@ std::optional<OutlineScene> read_outline(const Table& object) {
     scene.weight = read_line_weight(*outline, scene.method);
     scene.style = read_line_style(*outline, scene.method);
     scene.taper_px = outline->number("taper_px", {0, 1000}).value_or(usual_taper_px(scene.method));
+    scene.own_colour = outline->has("colour");
     scene.colour = read_colour(*outline, "colour").value_or(scene.colour);
   } else if (!object.has("outline") || !*object.flag("outline")) {
     return std::nullopt;

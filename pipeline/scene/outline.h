@@ -13,6 +13,8 @@ namespace rinkaku::pipeline {
 
 /// outline of [[object]]: its line.
 struct OutlineScene {
+  /// What the scene leaves open, the mesh's file may set: see with_file_line().
+  bool own_width = false, own_colour = false;
   double width_px = 3;
   std::optional<double> width_m;  ///< in place of width_px
   double min_px = 0;              ///< for width_m

@@ -109,6 +109,33 @@ TEST(AnimatedShot, SameFrameIsTheSamePictureFromWhereverARunBegins) {
   EXPECT_EQ(test::samples(folder.frames("out%04d.png").at(7)), test::samples(whole.at(7)));
 }
 
+// Lines that are found in pictures of the object, or drawn from all of its triangles, go where it goes.
+TEST(AnimatedShot, LinesOfOtherMethodsGoWithTheShape) {
+  const test::ShotFolder folder;
+  write_slide(folder);
+  folder.noise_clip("in.mkv", small, 12);
+  const auto cover_px = [](const Frame& layer) {
+    double sum = 0;
+    for (int y = 0; y < 48; ++y) {
+      for (int x = 0; x < 64; ++x) sum += test::sample(layer, 3, x, y) / 255.0;
+    }
+    return sum;
+  };
+  const double bare_px = cover_px(layers_of(folder, "animation = true\n").at(11));
+  for (const char* method : {"hull", "depth_normals", "silhouette", "laplacian", "facing"}) {
+    const std::string width = std::string(method) == "facing" ? "" : ", width_px = 2";
+    const std::vector<Frame> layers =
+        layers_of(folder, std::string("animation = true\noutline = { method = \"") + method + "\"" + width + " }\n");
+    for (const std::size_t i : {0u, 5u, 11u}) {
+      // What the side's strip adds; a line left behind by 4 px and more would draw the centroid to it by 1.
+      EXPECT_NEAR(centre_px(layers.at(i)), expected_px(-0.5 + static_cast<double>(i) / 25), 0.6) << method << ", " << i;
+    }
+    // The box is some 14 px wide; a line of 2 px, or of its outer half, all around adds this at least.
+    if (width.empty()) continue;
+    EXPECT_GT(cover_px(layers.at(11)), bare_px + 4 * 12 * 0.8) << method;
+  }
+}
+
 TEST(AnimatedShot, ClipsThatAreNotThereAreNamed) {
   const test::ShotFolder folder;
   write_slide(folder);

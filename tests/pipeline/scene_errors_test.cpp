@@ -303,8 +303,8 @@ INSTANTIATE_TEST_SUITE_P(
             "object has 'animation'; give cut = \"exact\" or \"gpu\""},
         BadScene{"AnimatedStrokes", object + "animation = true\noutline = { method = \"strokes\" }\n",
                  "DIR/scene.toml:9:11: 'outline' in [[object]] has lines that need a mesh that stands still, but the "
-                 "object has 'animation'; take the method \"uniform\", \"curvature\" or \"control\", without inner "
-                 "lines"},
+                 "object has 'animation'; take another method than \"z_lines\", \"hidden_lines\", \"isophote\", "
+                 "\"wobble\" and \"strokes\", without inner lines"},
         BadScene{"ClipFlag", object + "animation = { clip = true }\n",
                  "DIR/scene.toml:8:22: 'clip' in animation of [[object]] must be a clip's name or its number, counted "
                  "from 0, found true"},

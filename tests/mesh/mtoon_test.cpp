@@ -1,0 +1,126 @@
+// What a VRM's materials say about outlines.
+#include <cstdint>
+#include <cstring>
+#include <fstream>
+#include <string>
+
+#include "mesh/import.h"
+#include "tests/support/test_data.h"
+
+namespace rinkaku::mesh {
+namespace {
+
+using Unit = MaterialLine::Unit;
+
+// A binary glTF of three triangles, each of its own material, used in the order third, first, second.
+std::string glb_of(const std::string& materials, const std::string& extensions = "{}") {
+  std::string primitives;
+  for (const char* material : {"2", "0", "1"}) {
+    primitives +=
+        std::string(primitives.empty() ? "" : ",") + R"({"attributes":{"POSITION":0},"material":)" + material + "}";
+  }
+  std::string json = R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],)"
+                     R"("meshes":[{"primitives":[)" +
+                     primitives +
+                     R"(]}],"buffers":[{"byteLength":36}],)"
+                     R"("bufferViews":[{"buffer":0,"byteLength":36}],"accessors":[{"bufferView":0,)"
+                     R"("componentType":5126,"count":3,"type":"VEC3","min":[0,0,0],"max":[1,1,0]}],)"
+                     R"("materials":[)" +
+                     materials + R"(],"extensions":)" + extensions + "}";
+  json.resize((json.size() + 3) / 4 * 4, ' ');
+  const float triangle[9] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
+  const auto number = [](std::size_t n) {
+    const auto value = static_cast<std::uint32_t>(n);
+    return std::string(reinterpret_cast<const char*>(&value), 4);
+  };
+  return "glTF" + number(2) + number(12 + 8 + json.size() + 8 + 36) + number(json.size()) + "JSON" + json + number(36) +
+         std::string("BIN\0", 4) + std::string(reinterpret_cast<const char*>(triangle), 36);
+}
+
+class MtoonLine : public testing::Test {
+ protected:
+  Mesh load(const std::string& glb, const char* name = "figure.vrm") {
+    std::ofstream(folder_ / name, std::ios::binary) << glb;
+    return import(folder_ / name).mesh;
+  }
+  static const Material& named(const Mesh& mesh, const std::string& name) {
+    for (const Material& material : mesh.materials) {
+      if (material.name == name) return material;
+    }
+    ADD_FAILURE() << name;
+    return mesh.materials[0];
+  }
+  test::TemporaryFolder folder_;
+};
+
+TEST_F(MtoonLine, OfVrm1CountsInMetresAndPictureHeightsWithLinearColours) {
+  const std::string mtoon = R"("extensions":{"VRMC_materials_mtoon":{"specVersion":"1.0",)";
+  const std::string file =
+      glb_of(R"({"name":"skin",)" + mtoon +
+             R"("outlineWidthMode":"worldCoordinates","outlineWidthFactor":0.004,"outlineColorFactor":[1,0.5,0]}}},)"
+             R"({"name":"hair",)" +
+             mtoon +
+             R"("outlineWidthMode":"screenCoordinates","outlineWidthFactor":0.01}}},)"
+             R"({"name":"eye",)" +
+             mtoon + R"("outlineWidthMode":"none","outlineWidthFactor":0.02}}})");
+  for (const char* name : {"figure.vrm", "figure.glb"}) {
+    const Mesh mesh = load(file, name);
+    const Material &skin = named(mesh, "skin"), &hair = named(mesh, "hair"), &eye = named(mesh, "eye");
+    ASSERT_TRUE(skin.line && hair.line && eye.line);
+    EXPECT_EQ(skin.line->unit, Unit::Metres);
+    EXPECT_FLOAT_EQ(skin.line->width, 0.004f);
+    EXPECT_FLOAT_EQ(skin.line->colour.r, 1);
+    EXPECT_NEAR(skin.line->colour.g, 0.7354, 1e-3);  // sRGB of linear 0.5
+    EXPECT_EQ(hair.line->unit, Unit::PictureHeights);
+    EXPECT_FLOAT_EQ(hair.line->width, 0.01f);
+    EXPECT_EQ(eye.line->unit, Unit::None);
+    EXPECT_EQ(eye.line->width, 0);
+  }
+}
+
+// VRM 0.x: hundredths of a metre and of half the picture's height; colours are sRGB already.
+TEST_F(MtoonLine, OfVrm0IsTheSameInItsOwnUnits) {
+  const auto material = [](const char* name, const char* shader, const char* values) {
+    return std::string(R"({"name":")") + name + R"(","shader":")" + shader + R"(","floatProperties":{)" + values +
+           R"(},"vectorProperties":{"_OutlineColor":[0.5,0.25,0,1]}})";
+  };
+  const Mesh mesh =
+      load(glb_of(R"({"name":"skin"},{"name":"hair"},{"name":"eye"})",
+                  R"({"VRM":{"materialProperties":[)" +
+                      material("skin", "VRM/MToon", R"("_OutlineWidthMode":1,"_OutlineWidth":0.4)") + "," +
+                      material("hair", "VRM/MToon", R"("_OutlineWidthMode":2,"_OutlineWidth":0.4)") + "," +
+                      material("eye", "VRM_USE_GLTFSHADER", R"("_OutlineWidthMode":1)") + "]}}"));
+  const Material &skin = named(mesh, "skin"), &hair = named(mesh, "hair");
+  ASSERT_TRUE(skin.line && hair.line);
+  EXPECT_EQ(skin.line->unit, Unit::Metres);
+  EXPECT_FLOAT_EQ(skin.line->width, 0.004f);
+  EXPECT_FLOAT_EQ(skin.line->colour.g, 0.25f);
+  EXPECT_EQ(hair.line->unit, Unit::PictureHeights);
+  EXPECT_FLOAT_EQ(hair.line->width, 0.002f);
+  EXPECT_FALSE(named(mesh, "eye").line);
+}
+
+TEST_F(MtoonLine, ValuesThatMakeNoSenseAreNoLine) {
+  const std::string mtoon = R"("extensions":{"VRMC_materials_mtoon":{"outlineWidthMode":"worldCoordinates",)";
+  const Mesh mesh = load(glb_of(R"({"name":"a",)" + mtoon + R"("outlineWidthFactor":-1}}},{"name":"b",)" + mtoon +
+                                    R"("outlineWidthFactor":"wide","outlineColorFactor":[2,"x"]}}},)"
+                                    R"({"name":"c","extensions":{"VRMC_materials_mtoon":7}})",
+                                R"({"VRM":{"materialProperties":{"a":1}}})"));
+  for (const char* name : {"a", "b"}) {
+    ASSERT_TRUE(named(mesh, name).line) << name;
+    EXPECT_EQ(named(mesh, name).line->unit, Unit::None) << name;
+  }
+  EXPECT_FALSE(named(mesh, "c").line);
+}
+
+TEST_F(MtoonLine, OfSomebodyElsesFiles) {
+  RINKAKU_NEEDS_DATA();
+  const Mesh old = import(test::data("meshes/vrm/univrm_EmissionMigration_v0.107.0.vrm")).mesh;
+  ASSERT_TRUE(named(old, "MToon_Emission_0.5").line);
+  EXPECT_EQ(named(old, "MToon_Emission_0.5").line->unit, Unit::None);
+  EXPECT_FALSE(named(old, "Unlit_SRGB_0.5").line);
+  EXPECT_TRUE(named(import(test::data("meshes/vrm/vrmspec_mtoon_UV_Animation_Test.vrm")).mesh, "ScrollX").line);
+}
+
+}  // namespace
+}  // namespace rinkaku::mesh

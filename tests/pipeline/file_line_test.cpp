@@ -1,0 +1,92 @@
+// Outlines that the mesh's own file asks for.
+#include "pipeline/objects/file_line.h"
+
+#include <fstream>
+
+#include <gtest/gtest.h>
+
+#include "pipeline/objects/line_weights.h"
+#include "tests/pipeline/passes/shapes.h"
+#include "tests/support/test_data.h"
+
+namespace rinkaku::test {
+namespace {
+
+using mesh::MaterialLine;
+using Unit = MaterialLine::Unit;
+
+// The cube's twelve triangles: eight of skin, two of hair, two of an eye without a line.
+mesh::Mesh figure(Unit unit, Unit of_hair) {
+  mesh::Mesh mesh = cube();
+  mesh.materials.resize(3, mesh.materials[0]);
+  mesh.materials[0].name = "skin", mesh.materials[1].name = "hair", mesh.materials[2].name = "eye";
+  mesh.materials[0].line = {unit, 0.01f, {0.5f, 0.25f, 0}};
+  mesh.materials[1].line = {of_hair, 0.02f, {0, 0, 1}};
+  mesh.materials[2].line = {Unit::None, 0, {}};
+  mesh.parts = {{"a", 0, 8, 0}, {"b", 8, 2, 1}, {"c", 10, 2, 2}};
+  return mesh;
+}
+
+pipeline::ObjectScene outlined() {
+  pipeline::ObjectScene object;
+  object.mesh = "figure.vrm";
+  object.outline.emplace();
+  return object;
+}
+
+TEST(FileLine, IsTakenWhereTheSceneSaysNothing) {
+  const pipeline::ObjectScene object = with_file_line(outlined(), figure(Unit::Metres, Unit::Metres), 0.5, {});
+  ASSERT_TRUE(object.outline->width_m);
+  EXPECT_NEAR(*object.outline->width_m, 0.01, 1e-8);  // a unit of the mesh is half a metre
+  ASSERT_EQ(object.outline->weight.of_file.size(), 3u);
+  EXPECT_NEAR(object.outline->weight.of_file[0], 0.5, 1e-6);
+  EXPECT_EQ(object.outline->weight.of_file[1], 1);
+  EXPECT_EQ(object.outline->weight.of_file[2], 0);
+  EXPECT_NEAR(object.outline->colour[1], 0.25, 1e-6);
+}
+
+TEST(FileLine, SceneOverridesWidthAndColour) {
+  pipeline::ObjectScene object = outlined();
+  object.outline->own_width = object.outline->own_colour = true;
+  object.outline->width_px = 5;
+  object = with_file_line(std::move(object), figure(Unit::Metres, Unit::Metres), 1, {});
+  EXPECT_FALSE(object.outline->width_m);
+  EXPECT_EQ(object.outline->width_px, 5);
+  EXPECT_TRUE(object.outline->weight.of_file.empty());
+  EXPECT_EQ(object.outline->colour, pipeline::OutlineScene{}.colour);
+}
+
+TEST(FileLine, MaterialsOfTheSceneCountBeforeTheFiles) {
+  const mesh::Mesh mesh = figure(Unit::Metres, Unit::Metres);
+  pipeline::ObjectScene object = outlined();
+  for (const char* name : {"skin", "hair", "eye"}) object.outline->weight.materials.push_back({name, 1.5});
+  object = with_file_line(std::move(object), mesh, 1, {});
+  for (const float weight : line_weights(object, mesh)) EXPECT_FLOAT_EQ(weight, 1.5f);
+}
+
+TEST(FileLine, PartsOfThePictureAreItsCamerasPixels) {
+  const TemporaryFolder folder;
+  std::ofstream(folder / "camera.yml") << "%YAML:1.0\n---\nimage_width: 1280\nimage_height: 720\n"
+                                          "camera_matrix: !!opencv-matrix\n   rows: 3\n   cols: 3\n   dt: d\n"
+                                          "   data: [ 900., 0., 640., 0., 900., 360., 0., 0., 1. ]\n"
+                                          "distortion_coefficients: !!opencv-matrix\n   rows: 1\n   cols: 5\n   dt: d\n"
+                                          "   data: [ 0., 0., 0., 0., 0. ]\n";
+  const mesh::Mesh mesh = figure(Unit::PictureHeights, Unit::Metres);
+  const pipeline::ObjectScene object = with_file_line(outlined(), mesh, 1, folder / "camera.yml");
+  EXPECT_FALSE(object.outline->width_m);
+  EXPECT_NEAR(object.outline->width_px, 7.2, 1e-4);
+  EXPECT_EQ(object.outline->weight.of_file[1], 1);  // in another unit than most of the surface
+}
+
+TEST(FileLine, MeshesThatSayNothingChangeNothing) {
+  mesh::Mesh mesh = figure(Unit::None, Unit::None);
+  const pipeline::ObjectScene object = with_file_line(outlined(), mesh, 1, {});
+  EXPECT_EQ(object.outline->width_px, 3);
+  EXPECT_FALSE(object.outline->width_m);
+  EXPECT_TRUE(object.outline->weight.of_file.empty());
+  pipeline::ObjectScene without;
+  EXPECT_FALSE(with_file_line(without, figure(Unit::Metres, Unit::Metres), 1, {}).outline);
+}
+
+}  // namespace
+}  // namespace rinkaku::test
