@@ -281,19 +281,25 @@ void flicker(const River& river, const ReferencePicture& reference) {
     FlowOptions::Method method;
     Colours colours;
     bool mean;
+    bool even = false;  ///< every stroke takes the same colour: what is left are the strokes themselves
   };
+  ReferencePicture even;
+  MirrorOptions nothing;
+  nothing.reflection = 0;
+  even.paint(*river.surface, river.camera, river.camera_from_world, nothing, nullptr, nullptr, 1, 2);
   double first = 0;
   for (const Kind& kind :
        {Kind{"user's field, point-sampled", FlowOptions::Method::Arrows, Colours::Sampled, false},
         Kind{"divergence-free, point-sampled", FlowOptions::Method::DivergenceFree, Colours::Sampled, false},
         Kind{"divergence-free, neighbourhood mean", FlowOptions::Method::DivergenceFree, Colours::Sampled, true},
         Kind{"divergence-free, mean, causal filter", FlowOptions::Method::DivergenceFree, Colours::Followed, true},
-        Kind{"divergence-free, mean, B-spline keys", FlowOptions::Method::DivergenceFree, Colours::Keys, true}}) {
+        Kind{"divergence-free, mean, B-spline keys", FlowOptions::Method::DivergenceFree, Colours::Keys, true},
+        Kind{"the same, of one colour", FlowOptions::Method::DivergenceFree, Colours::Keys, true, true}}) {
     PaintingOptions options;
     options.flow.method = kind.method;
     options.colours = kind.colours;
     options.mean = kind.mean;
-    const Flicker f = flicker(river, reference, options, 60);
+    const Flicker f = flicker(river, kind.even ? even : reference, options, 60);
     if (first == 0) first = f.warping;
     std::printf("%-38s warping error %.3f e-3 (%.3f of the first), contrast %.4f\n", kind.name, 1e3 * f.warping,
                 f.warping / first, f.contrast);

@@ -73,17 +73,6 @@ class Watched {
   Watcher* watcher_;
 };
 
-// What the watcher wants drawn from this frame on; what can't be drawn is told to it, and nothing changes.
-void take_change(Watcher& watcher, const Frame& frame, Drawing& drawing) {
-  std::optional<SceneChange> changed = watcher.changed(frame);
-  if (!changed) return;
-  try {
-    redraw(drawing, changed->scene, std::move(changed->objects));
-  } catch (const Error& error) {
-    watcher.refused(error.what());
-  }
-}
-
 // One run of the line: what its stages need lives here, in the order in which a frame meets it.
 class Run {
  public:
@@ -102,6 +91,8 @@ class Run {
   void add_compositing();
   void add_outputs();
 
+  void make_water(const Scene& scene);
+  void take_change(const Frame& frame);
   void draw(Work& work);
   void merge(Work& work);
   void finish();
@@ -132,6 +123,7 @@ class Run {
   std::optional<passes::LensMap> lens_;
   std::optional<Drawing> drawing_;
   std::optional<WaterStage> water_;
+  std::optional<WaterScene> painted_;  // what that was made of
   std::vector<double> cuts_m_;
   passes::Layer scratch_;  // of the compositing thread
   std::optional<LayerFiles> layers_;
@@ -191,19 +183,48 @@ void Run::add_drawing() {
                                 {.tell = options_.tell, .stop = &stop_, .wait_for_lists = !described().live}));
   notice(drawing_->notices);
   if (runs("water")) {
-    water_.emplace(prepared_.scene, *prepared_.camera, frames_per_s(described()), *drawing_);
+    make_water(prepared_.scene);
     notice(water_->notices());
     line_.add(Group::Draw, "water", [this](Work& work) {
+      take_change(work.frame);
       if (!work.pose || work.pose->opacity <= 0) return;
       water_->look(work.frame, work.pose->camera_from_world, time_s(work.frame));
     });
   }
-  line_.add(Group::Draw, "draw", [this](Work& work) { draw(work); });
+  line_.add(Group::Draw, "draw", [this](Work& work) {
+    if (!water_) take_change(work.frame);
+    draw(work);
+  });
+}
+
+// In place of the water there was; that stays if it throws.
+void Run::make_water(const Scene& scene) {
+  auto before = drawing_->renderer->hand_out_scene_passes();
+  try {
+    WaterStage water(scene, *prepared_.camera, frames_per_s(described()), *drawing_);
+    water_.emplace(std::move(water));
+  } catch (...) {
+    for (auto& pass : before) drawing_->renderer->add(std::move(pass));
+    throw;
+  }
+  painted_ = scene.water;
+}
+
+// What the watcher wants drawn from this frame on; what can't be drawn is told to it, and stays as it was.
+void Run::take_change(const Frame& frame) {
+  if (!watcher_) return;
+  std::optional<SceneChange> changed = watcher_->changed(frame);
+  if (!changed) return;
+  try {
+    redraw(*drawing_, changed->scene, std::move(changed->objects));
+    if (water_ && changed->scene.water != painted_) make_water(changed->scene);
+  } catch (const Error& error) {
+    watcher_->refused(error.what());
+  }
 }
 
 void Run::draw(Work& work) {
   const std::span<passes::Layer> layers = empty_layers(work);
-  if (watcher_) take_change(*watcher_, work.frame, *drawing_);
   if (!work.pose || work.pose->opacity <= 0) return;
   ++report_.posed_frames;
   cuts_m_.clear();

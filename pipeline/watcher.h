@@ -14,7 +14,7 @@
 
 namespace rinkaku::pipeline {
 
-/// Another scene from a frame on. Only its objects and its light may differ from the scene that the run began with.
+/// Another scene from a frame on. Only its objects, light and water may differ from the scene that the run began with.
 struct SceneChange {
   Scene scene;
   PreparedObjects objects;  ///< of that scene

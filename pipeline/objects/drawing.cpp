@@ -165,6 +165,15 @@ water::Solid in_world(const mesh::Mesh& mesh, const glm::dmat4& world_from_objec
   return solid;
 }
 
+std::vector<water::Solid> solids_of(const Scene& scene, std::span<const std::optional<PreparedObject>> all) {
+  std::vector<water::Solid> solids;
+  if (!scene.water) return solids;
+  for (const std::optional<PreparedObject>& one : all) {
+    solids.push_back(in_world(one->imported.mesh, one->shape.world_from_object()));
+  }
+  return solids;
+}
+
 }  // namespace
 
 mesh::Imported load_mesh(const ObjectScene& object) {
@@ -215,11 +224,7 @@ Drawing make_drawing(const Scene& scene, const passes::PixelRect& picture, const
   drawing.context = gl::Context::headless();
   drawing.picture = picture;
   std::vector<std::optional<PreparedObject>> all = preparing.get();
-  if (scene.water) {
-    for (const std::optional<PreparedObject>& one : all) {
-      drawing.solids.push_back(in_world(one->imported.mesh, one->shape.world_from_object()));
-    }
-  }
+  drawing.solids = solids_of(scene, all);
   drawing.renderer =
       std::make_unique<passes::LayerRenderer>(style(scene, std::move(all), drawing.notices), drawing.picture);
   return drawing;
@@ -241,10 +246,12 @@ PreparedObjects prepare_objects(const Scene& scene, Paint paint) {
 
 void redraw(Drawing& drawing, const Scene& scene, PreparedObjects objects) {
   std::vector<std::string> notices;  // said already when the run began
+  std::vector<water::Solid> solids = solids_of(scene, objects.all_->objects);
   std::vector<passes::StyledObject> styled = style(scene, std::move(objects.all_->objects), notices);
   auto renderer = std::make_unique<passes::LayerRenderer>(std::move(styled), drawing.picture);
   renderer->take_scene_passes(*drawing.renderer);
   drawing.renderer = std::move(renderer);
+  drawing.solids = std::move(solids);
 }
 
 }  // namespace rinkaku::pipeline

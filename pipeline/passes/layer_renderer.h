@@ -31,6 +31,8 @@ class LayerRenderer {
   void add(std::unique_ptr<ScenePass> pass) { scene_passes_.push_back(std::move(pass)); }
   /// Takes over the other's scene passes.
   void take_scene_passes(LayerRenderer& from) { std::swap(scene_passes_, from.scene_passes_); }
+  /// Hands them out; without them it draws the objects alone.
+  std::vector<std::unique_ptr<ScenePass>> hand_out_scene_passes() { return std::exchange(scene_passes_, {}); }
 
   /// Draws what `view` sees. Returns false, leaving `layer` empty, if no object is in the picture.
   bool draw(const View& view, Layer& layer) { return draw(view, {}, {&layer, 1}); }

@@ -109,7 +109,10 @@ WaterSurfaceScene read_surface(const Table& surface) {
       scene.obstacles_m.push_back(*corners);
     }
   }
-  for (const Table& arrow : surface.tables("arrow")) scene.arrows.push_back(read_arrow(arrow));
+  for (const Table& arrow : surface.tables("arrow")) {
+    scene.arrows.push_back(read_arrow(arrow));
+    scene.arrows.back().in_file = scene.arrows.size() - 1;
+  }
   std::stable_sort(scene.arrows.begin(), scene.arrows.end(),
                    [](const WaterArrowScene& a, const WaterArrowScene& b) { return a.frame < b.frame; });
   check_keys_alike(surface, scene);

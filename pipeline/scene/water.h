@@ -16,11 +16,13 @@ namespace rinkaku::pipeline {
 
 /// [[water.surface.arrow]]: how water flows at a place, drawn on the screen or laid down in the world.
 struct WaterArrowScene {
-  std::string where;  ///< file:line:column
+  std::string where;        ///< file:line:column
+  std::size_t in_file = 0;  ///< which one of the file's it is
   std::int64_t frame = 0;
   bool on_screen = true;
   glm::dvec2 from_px{0}, to_px{0};  ///< pixels of the recording
   glm::dvec3 from_m{0}, to_m{0};    ///< world
+  bool operator==(const WaterArrowScene&) const = default;
 };
 
 /// [[water.surface]]: one plane piece of water.
@@ -32,6 +34,7 @@ struct WaterSurfaceScene {
   std::vector<WaterArrowScene> arrows;  ///< in order of frames; every key frame has as many
   std::optional<double> alpha_m;
   std::optional<std::array<double, 3>> colour;  ///< in place of the water's
+  bool operator==(const WaterSurfaceScene&) const = default;
 };
 
 /// [[water.spray]]: drops that rise along a line, as at a waterfall's foot.
@@ -42,6 +45,7 @@ struct WaterSprayScene {
   double height_m = 0.3;
   double size_m = 0.1;
   std::array<double, 3> colour{0.95, 0.97, 1.0};
+  bool operator==(const WaterSprayScene&) const = default;
 };
 
 /// A brush of the user's own, and where in the picture it is used.
@@ -51,6 +55,7 @@ struct WaterBrushScene {
   bool on_screen = true;
   glm::dvec2 at_px{0};
   glm::dvec3 at_m{0};  ///< world
+  bool operator==(const WaterBrushScene&) const = default;
 };
 
 /// [water]
@@ -94,6 +99,7 @@ struct WaterScene {
   std::vector<WaterSurfaceScene> surfaces;
   std::vector<WaterSprayScene> sprays;
   std::vector<WaterBrushScene> brushes;
+  bool operator==(const WaterScene&) const = default;
 };
 
 toml::Schema water_schema();

@@ -79,6 +79,24 @@ const Value* child(const Value& table, const Step& step) {
   return step.index < elements->size() ? &(*elements)[step.index] : nullptr;
 }
 
+// Past all that a value was written as: past the last entry of a table with a header, and of those below it.
+std::size_t end_of_all(std::string_view text, const Value& value) {
+  const std::size_t begin = byte_at(text, value.at);
+  if (const auto* entries = std::get_if<Entries>(&value.held); entries && text.substr(begin, 1) != "{") {
+    std::size_t end = end_of_line(text, begin);
+    for (const Entry& entry : *entries) end = std::max(end, end_of_all(text, entry.value));
+    return end;
+  }
+  const auto* elements = std::get_if<Array>(&value.held);
+  const bool of_tables = elements && !elements->empty() && std::holds_alternative<Entries>(elements->front().held);
+  if (of_tables && text.substr(byte_at(text, elements->front().at), 1) != "{") {
+    return end_of_all(text, elements->back());
+  }
+  return begin < text.size() ? end_of_value(text, begin) : begin;
+}
+
+bool blank(char c) { return c == ' ' || c == '\t'; }
+
 // Puts `key = value` into the table that starts at byte `at`: `{ ... }`, or a header's line.
 std::string inserted(std::string_view text, std::size_t at, const std::string& entry) {
   std::string result(text);
@@ -122,6 +140,57 @@ std::string with_value(std::string_view text, const Path& path, std::string_view
   if (std::holds_alternative<bool>(table->held)) return with_value(text, above, "{ " + entry + " }");
   if (!std::holds_alternative<Entries>(table->held)) throw input_error(where, "'" + above.back().key + "' is no table");
   return inserted(text, byte_at(text, table->at), entry);
+}
+
+std::string with_table(std::string_view text, const Path& array, std::span<const std::string> entries) {
+  const Value document = parse_text(text, where);
+  const Value* above = find(document, {array.begin(), array.end() - 1});
+  const Value* old = nullptr;
+  if (const auto* held = above ? std::get_if<Entries>(&above->held) : nullptr) {
+    for (const Entry& entry : *held) old = entry.key == array.back().key ? &entry.value : old;
+  } else {
+    throw input_error(where, "has no such table");
+  }
+  const auto* elements = old ? std::get_if<Array>(&old->held) : nullptr;
+  if (old && !elements) throw input_error(where, "'" + array.back().key + "' is no array");
+  const Value* last = elements && !elements->empty() ? &elements->back() : nullptr;
+  const Value& before = last ? *last : *above;
+  std::string added;
+  // An empty array was written as [], so its tables go between the brackets.
+  if ((old && !last) || text.substr(byte_at(text, before.at), 1) == "{") {
+    for (const std::string& entry : entries) added += (added.empty() ? "{ " : ", ") + entry;
+    added += " }";
+    if (last) return std::string(text).insert(end_of_all(text, *last), ", " + added);
+    return with_value(text, array, "[" + added + "]");
+  }
+  for (const Step& step : array) added += (added.empty() ? "\n[[" : ".") + step.key;
+  added += "]]";
+  for (const std::string& entry : entries) added += "\n" + entry;
+  return std::string(text).insert(end_of_line(text, end_of_all(text, before)), added);
+}
+
+std::string without_table(std::string_view text, const Path& table) {
+  const Value document = parse_text(text, where);
+  const Value* old = find(document, table);
+  if (!old || !std::holds_alternative<Entries>(old->held)) throw input_error(where, "has no such table");
+  std::size_t begin = byte_at(text, old->at), end = end_of_all(text, *old);
+  if (text[begin] == '{') {
+    // With the comma behind it, or as the last one with that before it.
+    std::size_t comma = end;
+    while (comma < text.size() && blank(text[comma])) ++comma;
+    if (comma < text.size() && text[comma] == ',') {
+      end = comma + 1;
+      while (end < text.size() && blank(text[end])) ++end;
+    } else {
+      std::size_t back = begin;
+      while (back > 0 && (blank(text[back - 1]) || text[back - 1] == '\n' || text[back - 1] == '\r')) --back;
+      if (back > 0 && text[back - 1] == ',') begin = back - 1;
+    }
+    return std::string(text).erase(begin, end - begin);
+  }
+  while (begin > 0 && text[begin - 1] != '\n') --begin;
+  end = std::min(end_of_line(text, end) + 1, text.size());
+  return std::string(text).erase(begin, end - begin);
 }
 
 bool same(const Value& a, const Value& b) {

@@ -40,6 +40,11 @@ Key meaning(int key) {
       return Key::Screenshot;
     case GLFW_KEY_V:
       return Key::Look;
+    case GLFW_KEY_A:
+      return Key::Arrows;
+    case GLFW_KEY_DELETE:
+    case GLFW_KEY_BACKSPACE:
+      return Key::Delete;
     case GLFW_KEY_HOME:
       return Key::Restart;
     default:

@@ -9,7 +9,7 @@ struct GLFWwindow;
 namespace rinkaku::window {
 
 /// What a user does to a window, apart from its panel.
-enum class Key { Pause, Step, FullScreen, Panel, Quit, Screenshot, Restart, Save, Look, Other };
+enum class Key { Pause, Step, FullScreen, Panel, Quit, Screenshot, Restart, Save, Look, Arrows, Delete, Other };
 
 /// A window with an OpenGL 4.5 core context, current on the thread that made it; all its functions are for the main
 /// thread, and only one can be open.

@@ -175,6 +175,29 @@ TEST(Live, KeyShowsMattesAndCurvature) {
   for (int c = 0; c < 3; ++c) EXPECT_EQ(sample(curvature, c, 2, 2), sample(picture, c, 2, 2));
 }
 
+TEST(Live, FlowArrowsAreDrawnWithTheMouseAndSaved) {
+  if (std::system("command -v Xvfb xdotool >/dev/null 2>&1") != 0) GTEST_SKIP() << "Xvfb or xdotool is not installed";
+  const ShotFolder folder(640, 480);
+  test::ffmpeg("-f lavfi -i color=gray:size=640x480:rate=25 -frames:v 4 -pix_fmt yuv420p -c:v ffv1 '" +
+               folder.file("in.mkv") + "'");
+  const std::string scene = plate +
+                            "[track]\nlocked = { position_m = [0, 0, 3], look_at_m = [0, 0, 0], up = [0, 1, 0] }\n"
+                            "[water] # a pond\nstrokes = 200\n"
+                            "[[water.surface]]\noutline_m = [[-1, -1, 0], [1, -1, 0], [1, 1, 0], [-1, 1, 0]]\n";
+  folder.write("scene.toml", scene);
+  // The window is half as large as the picture. Its (160, 120) is the middle of the picture and sees the world's
+  // origin; 50 pixels there are 100 of the picture, 100 x 3 / 640 m on the water.
+  const CliResult result = play_on_a_screen(
+      folder, "",
+      "xdotool mousemove 160 120 key a; sleep 1; xdotool mousedown 1; sleep 0.5; xdotool mousemove 180 "
+      "120; sleep 0.5; xdotool mousemove 210 120; sleep 0.5; xdotool mouseup 1; sleep 2; xdotool key "
+      "ctrl+s; sleep 1; ");
+  ASSERT_EQ(result.status, 0) << result.err << text_of(folder / "trouble");
+  const std::string saved = text_of(folder / "scene.toml");
+  ASSERT_TRUE(saved.starts_with(scene)) << saved;
+  EXPECT_EQ(saved.substr(scene.size() - 1), "\n[[water.surface.arrow]]\nfrom_m = [0, 0, 0]\nto_m = [0.469, 0, 0]\n");
+}
+
 TEST(Live, ShadersAreReadAnewAndWrongOnesChangeNothing) {
   if (std::system("command -v Xvfb xdotool >/dev/null 2>&1") != 0) GTEST_SKIP() << "Xvfb or xdotool is not installed";
   const ShotFolder folder(640, 480);

@@ -50,6 +50,40 @@ TEST(Session, RenderMakesTheSameFramesAgainToTheLastBit) {
   EXPECT_NE(sample(frames.front(), 2, 160, 240), sample(frames.back(), 2, 160, 240));
 }
 
+// The water's colour and arrows change while it is filmed, with its strokes under way.
+TEST(Session, WaterThatChangesIsMadeAgainToTheLastBit) {
+  NEEDS_PRELOAD();
+  const ShotFolder folder(640, 480);
+  folder.write("scene.toml",
+               live_scene + "camera = \"camera.yml\"\n" + locked +
+                   "[water]\nstrokes = 200\ncolour = \"#600000\"\nmirror = { plate = false, reflection = 0 }\n"
+                   "[[water.surface]]\noutline_m = [[-1, -1, 0], [1, -1, 0], [1, 1, 0], [-1, 1, 0]]\n"
+                   "[[water.surface.arrow]]\nfrom_m = [0, 0, 0]\nto_m = [0.3, 0, 0]\n");
+  const CliResult live =
+      run_shell(folder.path(), preloaded("FAKE_CAMERA_FPS=20") +
+                                   " \"$RINKAKU\" live scene.toml --headless --seconds 5 --record live.mkv --codec "
+                                   "ffvhuff --session take --json "
+                                   "& player=$!; for i in $(seq 100); do [ $(wc -l <take/session.jsonl) -gt 10 ] "
+                                   "2>/dev/null && break; sleep 0.1; "
+                                   "done; sed 's/#600000/#000060/; s/0.3, 0, 0/0, 0.3, 0/' scene.toml >new && mv new "
+                                   "scene.toml; wait $player");
+  ASSERT_EQ(live.status, 0) << live.err;
+  EXPECT_TRUE(contains(text_of(folder / "take/session.jsonl"), "from_frame"));
+  const CliResult again = run_rinkaku(folder, "render take -o again.mkv --codec ffvhuff");
+  ASSERT_EQ(again.status, 0) << again.err;
+  const auto shown = frame_hashes(folder, "live.mkv"), made = frame_hashes(folder, "again.mkv");
+  ASSERT_GT(shown.size(), 10u);
+  auto at = made.begin();
+  for (const std::string& frame : shown) {
+    at = std::find(at, made.end(), frame);
+    ASSERT_NE(at, made.end());
+  }
+  // Red water first, then blue: V falls and U rises in the middle of it.
+  const auto frames = folder.frames("again.mkv");
+  EXPECT_GT(sample(frames.front(), 2, 160, 300), sample(frames.back(), 2, 160, 300) + 20);
+  EXPECT_LT(sample(frames.front(), 1, 160, 300), sample(frames.back(), 1, 160, 300) - 20);
+}
+
 TEST(Session, RecordingIsPlayableWhenItIsKilled) {
   NEEDS_PRELOAD();
   for (const std::string file : {"out.mp4", "out.mkv"}) {

@@ -9,8 +9,8 @@
 #include <backends/imgui_impl_opengl3.h>
 #include <imgui.h>
 
+#include "apps/rinkaku/viewer/arrow_overlay.h"
 #include "apps/rinkaku/viewer/tunables.h"
-#include "apps/rinkaku/viewer/value_fields.h"
 
 namespace rinkaku::app {
 namespace {
@@ -53,10 +53,19 @@ bool Panel::wants_keys() const { return ImGui::GetIO().WantTextInput; }
 PanelWish Panel::draw(const SceneFile& file, const PanelFacts& facts) {
   PanelWish wish;
   const std::string& lost = facts.status.health.notice;
-  if (!open_ && facts.trouble.empty() && lost.empty()) return wish;
+  const bool says = open_ || !facts.trouble.empty() || !lost.empty();
+  if (!says && !facts.arrows) return wish;
   ImGui_ImplOpenGL3_NewFrame();
   ImGui_ImplGlfw_NewFrame();
   ImGui::NewFrame();
+  if (facts.arrows && facts.shown) wish.text = arrow_overlay(*facts.arrows, facts.shown->frame.format, scale_);
+  if (says) draw_window(file, facts, wish);
+  ImGui::Render();
+  ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
+  return wish;
+}
+
+void Panel::draw_window(const SceneFile& file, const PanelFacts& facts, PanelWish& wish) {
   const ImVec2 display = ImGui::GetIO().DisplaySize;
   ImGui::SetNextWindowPos({8 * scale_, 8 * scale_}, ImGuiCond_Always);
   const float width = std::min(panel_width * scale_, display.x - 16 * scale_);
@@ -64,7 +73,7 @@ PanelWish Panel::draw(const SceneFile& file, const PanelFacts& facts) {
   constexpr ImGuiWindowFlags fixed = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoResize |
                                      ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoSavedSettings;
   ImGui::Begin("rinkaku", nullptr, fixed);
-  for (const std::string* line : {&facts.trouble, &lost}) {
+  for (const std::string* line : {&facts.trouble, &facts.status.health.notice}) {
     if (line->empty()) continue;
     ImGui::PushStyleColor(ImGuiCol_Text, warning);
     ImGui::TextWrapped("%s", line->c_str());
@@ -73,19 +82,17 @@ PanelWish Panel::draw(const SceneFile& file, const PanelFacts& facts) {
   if (open_) {
     draw_transport(file, facts, wish);
     draw_values(file, wish);
+    draw_water(file, facts, wish);
     draw_times(facts);
   }
   ImGui::End();
-  ImGui::Render();
-  ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
-  return wish;
 }
 
 void Panel::draw_transport(const SceneFile& file, const PanelFacts& facts, PanelWish& wish) {
   const char* state = facts.ended ? "at its end" : facts.paused ? "paused" : facts.status.live ? "live" : "playing";
   const long long number = facts.shown ? static_cast<long long>(facts.shown->frame.number) : 0;
   ImGui::Text("%s  frame %lld  %.1f fps%s", state, number, facts.fps,
-              facts.shown && !facts.shown->posed ? "  no pose" : "");
+              facts.shown && !facts.shown->camera_from_world ? "  no pose" : "");
   if (facts.status.live) {
     const auto& health = facts.status.health;
     ImGui::Text("capture to screen %.0f ms", facts.latency_ms);
@@ -119,12 +126,59 @@ void Panel::draw_values(const SceneFile& file, PanelWish& wish) {
     if (ImGui::CollapsingHeader((title + "###object").c_str(), i == 0 ? ImGuiTreeNodeFlags_DefaultOpen : 0)) {
       for (const Tunable& tunable : object_tunables()) {
         const bool drawn = !object.holdout || std::string_view(tunable.table).empty();
-        if (drawn) draw_field(file, tunable, {{"object", i}}, add);
+        if (drawn) fields_.draw(file, tunable, {{"object", i}}, add);
       }
     }
     ImGui::PopID();
   }
-  for (const Tunable& tunable : scene_tunables()) draw_field(file, tunable, {}, add);
+  for (const Tunable& tunable : scene_tunables()) fields_.draw(file, tunable, {}, add);
+  for (std::size_t i = 0; i < file.scene().foregrounds.size(); ++i) {
+    ImGui::PushID(static_cast<int>(i));
+    if (ImGui::CollapsingHeader((file.scene().foregrounds[i].name + "###foreground").c_str())) {
+      for (const Tunable& tunable : foreground_tunables()) fields_.draw(file, tunable, {{"foreground", i}}, add);
+    }
+    ImGui::PopID();
+  }
+  fields_.let_go(add);
+}
+
+void Panel::draw_water(const SceneFile& file, const PanelFacts& facts, PanelWish& wish) {
+  if (!file.scene().water || !ImGui::CollapsingHeader("water", facts.arrows ? ImGuiTreeNodeFlags_DefaultOpen : 0)) {
+    return;
+  }
+  bool editing = facts.arrows != nullptr;
+  wish.arrows = ImGui::Checkbox("flow arrows (A)", &editing);
+  if (facts.arrows) {
+    ImGui::BeginDisabled(!facts.arrows->selected());
+    wish.delete_arrow = ImGui::Button("take away");
+    ImGui::EndDisabled();
+    ImGui::SameLine();
+    wish.key_arrows = ImGui::Button("key frame here");
+    if (const auto key = facts.arrows->key_frame()) {
+      ImGui::SameLine();
+      ImGui::Text("of frame %lld", static_cast<long long>(*key));
+    }
+  }
+  const auto add = [&wish](const toml::Path& path, const std::string& text) { wish.values.push_back({path, text}); };
+  const auto draw_all = [&](const std::vector<Tunable>& tunables, const toml::Path& above) {
+    for (const Tunable& tunable : tunables) fields_.draw(file, tunable, above, add);
+  };
+  draw_all(water_tunables(), {{"water"}});
+  const auto numbered = [&](const char* title, const char* key, std::size_t count, const std::vector<Tunable>& which) {
+    for (std::size_t i = 0; i < count; ++i) {
+      ImGui::PushID(title);
+      ImGui::PushID(static_cast<int>(i));
+      if (ImGui::TreeNode((std::string(title) + " " + std::to_string(i + 1)).c_str())) {
+        draw_all(which, {{"water"}, {key, i}});
+        ImGui::TreePop();
+      }
+      ImGui::PopID();
+      ImGui::PopID();
+    }
+  };
+  numbered("surface", "surface", file.scene().water->surfaces.size(), water_surface_tunables());
+  numbered("spray", "spray", file.scene().water->sprays.size(), water_spray_tunables());
+  fields_.let_go(add);
 }
 
 void Panel::draw_times(const PanelFacts& facts) {

@@ -5,7 +5,9 @@
 #include <string>
 #include <vector>
 
+#include "apps/rinkaku/viewer/arrow_editor.h"
 #include "apps/rinkaku/viewer/scene_file.h"
+#include "apps/rinkaku/viewer/value_fields.h"
 #include "apps/rinkaku/viewer/viewer.h"
 #include "pipeline/window/window.h"
 
@@ -19,8 +21,9 @@ struct PanelFacts {
   double latency_ms = 0;                 ///< from the camera's stamp to the screen, lately; 0 for recordings
   bool paused = false, ended = false;
   Viewer::Look look = Viewer::Look::Picture;
-  std::string trouble;  ///< an error that the user should see; empty if there is none
-  std::string notice;   ///< the last thing done, e.g. the screenshot's name
+  std::string trouble;            ///< an error that the user should see; empty if there is none
+  std::string notice;             ///< the last thing done, e.g. the screenshot's name
+  ArrowEditor* arrows = nullptr;  ///< while flow arrows are edited
 };
 
 /// What the user asked for in it.
@@ -31,6 +34,9 @@ struct PanelWish {
   };
   std::vector<Value> values;
   std::optional<Viewer::Look> look;
+  std::optional<std::string> text;  ///< the scene's, with other flow arrows
+  bool arrows = false;              ///< edits flow arrows from now on, or no longer
+  bool delete_arrow = false, key_arrows = false;
   bool pause = false, step = false, restart = false, screenshot = false, save = false, full_screen = false;
 };
 
@@ -52,12 +58,15 @@ class Panel {
   PanelWish draw(const SceneFile& file, const PanelFacts& facts);
 
  private:
+  void draw_window(const SceneFile& file, const PanelFacts& facts, PanelWish& wish);
   void draw_transport(const SceneFile& file, const PanelFacts& facts, PanelWish& wish);
   void draw_values(const SceneFile& file, PanelWish& wish);
+  void draw_water(const SceneFile& file, const PanelFacts& facts, PanelWish& wish);
   void draw_times(const PanelFacts& facts);
 
   float scale_ = 1;
   bool open_ = true;
+  ValueFields fields_;
   std::array<float, pipeline::Work::most_stages> smooth_ms_{};
 };
 

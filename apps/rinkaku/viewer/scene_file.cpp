@@ -17,14 +17,17 @@ fs::file_time_type time_of(const fs::path& path) {
   return error ? fs::file_time_type::min() : time;
 }
 
-// Objects and light are drawn anew between two frames; all else is set up before the first one.
+// Objects, light and water are drawn anew between two frames; all else is set up before the first one.
 SceneFile::Effect effect_of(const std::vector<std::string>& changed, const pipeline::Scene& before,
                             const pipeline::Scene& after) {
   if (changed.empty()) return SceneFile::Effect::None;
-  const bool only_drawn = std::all_of(changed.begin(), changed.end(),
-                                      [](const std::string& key) { return key == "object" || key == "light"; });
-  const bool draws = !before.objects.empty() && !after.objects.empty();
-  return only_drawn && draws ? SceneFile::Effect::Redraw : SceneFile::Effect::Restart;
+  const bool only_drawn = std::all_of(changed.begin(), changed.end(), [](const std::string& key) {
+    return key == "object" || key == "light" || key == "water";
+  });
+  const bool draws =
+      before.objects.empty() == after.objects.empty() && before.water.has_value() == after.water.has_value();
+  return only_drawn && draws && (!after.objects.empty() || after.water) ? SceneFile::Effect::Redraw
+                                                                        : SceneFile::Effect::Restart;
 }
 
 // In the folder and those below it that aren't hidden, nor what a build made.
@@ -66,6 +69,8 @@ SceneFile::Effect SceneFile::take(std::string text) {
   scene_ = std::move(scene);
   return effect;
 }
+
+SceneFile::Effect SceneFile::set_text(std::string text) { return take(std::move(text)); }
 
 SceneFile::Effect SceneFile::set(const toml::Path& path, const std::string& value) {
   return take(toml::with_value(text_, path, value));

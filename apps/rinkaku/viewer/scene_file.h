@@ -32,6 +32,9 @@ class SceneFile {
   /// right with it.
   Effect set(const toml::Path& path, const std::string& value);
 
+  /// Sets the whole text, as set() does one value.
+  Effect set_text(std::string text);
+
   /// Reads anew what changed on disk since it was last looked at, the scene or what it names. Throws Error (Input), and
   /// nothing changes, if the scene isn't right; it is then looked at again only when it changes once more.
   Effect look();

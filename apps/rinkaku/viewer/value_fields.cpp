@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <string_view>
+#include <utility>
 #include <variant>
 
 #include <imgui.h>
@@ -12,7 +12,7 @@
 namespace rinkaku::app {
 namespace {
 
-using Setter = std::function<void(const toml::Path&, const std::string&)>;
+using Setter = ValueFields::Setter;
 
 // As TOML, and as short as a slider's steps allow.
 std::string number_text(double value) {
@@ -94,52 +94,87 @@ void choice_field(const Tunable& t, const toml::Value* value, const toml::Path& 
   ImGui::EndCombo();
 }
 
+void flag_field(const Tunable& t, const toml::Value* value, const toml::Path& path, const Setter& set) {
+  const auto* flag = value ? std::get_if<bool>(&value->held) : nullptr;
+  bool now = flag ? *flag : t.preset > 0;
+  if (ImGui::Checkbox(t.label, &now)) set(path, now ? "true" : "false");
+}
+
+// Whether a key has this word, or it among several.
+bool has_word(const toml::Value* value, const char* word) {
+  if (!value) return false;
+  if (const auto* text = std::get_if<std::string>(&value->held)) return *text == word;
+  const auto* all = std::get_if<toml::Array>(&value->held);
+  return all && std::any_of(all->begin(), all->end(), [word](const toml::Value& one) { return has_word(&one, word); });
+}
+
 // Whether the scene has the tunable's table: a slider must not switch on what the scene leaves off.
 bool has_table(const SceneFile& file, const toml::Path& table) {
   const toml::Value* value = file.find(table);
-  if (!value) return table.size() <= 1 || table.back().key == "toon";  // toon is on by default
+  if (!value) {
+    // Toon is on by default, water has all its tables, and a filmed thing those of its methods.
+    if (table.front().key == "foreground" && table.size() == 2) {
+      return has_word(file.find({table.front(), {"method"}}), table.back().key.c_str());
+    }
+    return table.size() <= 1 || table.back().key == "toon" || table.front().key == "water";
+  }
   const auto* flag = std::get_if<bool>(&value->held);
   return !flag || *flag;
 }
 
+bool goes(const SceneFile& file, const Tunable& tunable, const toml::Path& table) {
+  const auto beside = [&](const char* key) {
+    toml::Path path = table;
+    path.push_back({key});
+    return file.find(path);
+  };
+  if (*tunable.with_key != '\0' && !has_word(beside(tunable.with_key), tunable.with_word)) return false;
+  if (*tunable.without_key != '\0' && beside(tunable.without_key)) return false;
+  return !tunable.only_given || beside(tunable.key);
+}
+
 }  // namespace
 
-void draw_field(const SceneFile& file, const Tunable& tunable, const toml::Path& above, const Setter& set) {
+void ValueFields::draw(const SceneFile& file, const Tunable& tunable, const toml::Path& above, const Setter& set) {
   toml::Path path = above;
   if (*tunable.table != '\0') path.push_back({tunable.table});
-  if (!has_table(file, path)) return;
-  if (*tunable.with_key != '\0') {
-    toml::Path condition = path;
-    condition.push_back({tunable.with_key});
-    const toml::Value* word = file.find(condition);
-    const auto* text = word ? std::get_if<std::string>(&word->held) : nullptr;
-    if (!text || *text != tunable.with_word) return;
-  }
+  if (!has_table(file, path) || !goes(file, tunable, path)) return;
   path.push_back({tunable.key});
   const toml::Value* value = file.find(path);
+  const bool at_once = path.front().key == "object" || path.front().key == "light";
+  const Setter hold = [this](const toml::Path& where, const std::string& text) { held_ = Held{where, text}; };
+  const Setter& change = at_once ? set : hold;
   ImGui::PushID(tunable.table);
   switch (tunable.kind) {
     case Tunable::Kind::Number:
     case Tunable::Kind::Whole:
-      // A mesh in its own size has no height to slide.
-      if (value || std::string_view(tunable.key) != "height_m") number_field(tunable, value, path, set);
+      number_field(tunable, value, path, change);
+      break;
+    case Tunable::Kind::Flag:
+      flag_field(tunable, value, path, change);
       break;
     case Tunable::Kind::Vector:
-      vector_field(tunable, value, path, set);
+      vector_field(tunable, value, path, change);
       break;
     case Tunable::Kind::Colour:
       // A colour that the scene doesn't give comes from elsewhere, e.g. the mesh.
       if (value) {
         std::array<float, 3> colour = colour_of(*value);
         if (ImGui::ColorEdit3(tunable.label, colour.data(), ImGuiColorEditFlags_NoInputs))
-          set(path, colour_text(colour));
+          change(path, colour_text(colour));
       }
       break;
     case Tunable::Kind::Choice:
-      choice_field(tunable, value, path, set);
+      choice_field(tunable, value, path, change);
       break;
   }
   ImGui::PopID();
+}
+
+void ValueFields::let_go(const Setter& set) {
+  if (!held_ || ImGui::IsMouseDown(ImGuiMouseButton_Left) || ImGui::IsAnyItemActive()) return;
+  const Held held = *std::exchange(held_, std::nullopt);
+  set(held.path, held.text);
 }
 
 }  // namespace rinkaku::app

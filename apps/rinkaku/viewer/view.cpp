@@ -68,6 +68,7 @@ class View {
   void apply(Effect effect);
   void look_at_files();
   void take_screenshot();
+  ArrowEditor* look_at_arrows(double frames_per_s);
   template <typename Attempt>
   void attempt(Attempt change);
 
@@ -80,7 +81,8 @@ class View {
   std::optional<window::Presenter> presenter_;
   std::optional<Panel> panel_;
   std::optional<Viewer::Shown> shown_;
-  bool fresh_ = false, quit_ = false;
+  ArrowEditor arrows_;
+  bool fresh_ = false, quit_ = false, editing_ = false;
   std::string trouble_, notice_;
   ViewReport report_;
   Clock::time_point started_ = Clock::now(), looked_ = started_, last_shown_ = started_;
@@ -92,6 +94,7 @@ ViewReport View::run() {
   run_.start(file_.scene());
   wait_for_first_frame();
   if (!options_.headless) open_window();
+  if (options_.headless && shown_) ++report_.shown;
   started_ = last_shown_ = Clock::now();
   while (goes_on()) {
     if (window_) {
@@ -183,6 +186,7 @@ void View::draw() {
   facts.trouble = trouble_.empty() ? facts.status.trouble : trouble_;
   facts.notice = notice_;
   facts.look = viewer_.look();
+  if (editing_ && shown_) facts.arrows = look_at_arrows(facts.status.frames_per_s);
   const PanelWish wish = panel_->draw(file_, facts);
   window_->swap();
   if (fresh_) {
@@ -214,10 +218,32 @@ void View::attempt(Attempt change) {
   }
 }
 
+// Of the picture that is shown; null, and said why, if they can't be edited.
+ArrowEditor* View::look_at_arrows(double frames_per_s) {
+  try {
+    arrows_.look(file_, frames_per_s, shown_->frame.number, shown_->camera_from_world);
+    return &arrows_;
+  } catch (const std::exception& error) {
+    trouble_ = error.what();
+    editing_ = false;
+    return nullptr;
+  }
+}
+
 void View::obey(const PanelWish& wish) {
   for (const PanelWish::Value& value : wish.values) {
     attempt([&] { apply(file_.set(value.path, value.text)); });
   }
+  if (wish.arrows) {
+    editing_ = !editing_ && file_.scene().water.has_value();
+    if (!file_.scene().water) notice_ = "the scene has no water for flow arrows";
+  }
+  const auto take_text = [this](const std::optional<std::string>& text) {
+    if (text) attempt([&] { apply(file_.set_text(*text)); });
+  };
+  take_text(wish.text);
+  if (editing_ && wish.delete_arrow) take_text(arrows_.without_selected());
+  if (editing_ && wish.key_arrows) take_text(arrows_.with_key_here());
   if (wish.pause) {
     if (viewer_.playback().ended()) {
       apply(Effect::Restart);
@@ -262,6 +288,8 @@ void View::obey_keys() {
         wish.restart |= key == Key::Restart;
         wish.screenshot |= key == Key::Screenshot;
         wish.save |= key == Key::Save;
+        wish.arrows |= key == Key::Arrows;
+        wish.delete_arrow |= key == Key::Delete;
     }
   }
   obey(wish);

@@ -5,6 +5,7 @@
 
 #include "apps/rinkaku/viewer/matte_view.h"
 #include "pipeline/frame/error.h"
+#include "pipeline/set_up.h"
 
 namespace rinkaku::app {
 
@@ -42,6 +43,7 @@ void Viewer::started(const source::Source& source, const pipeline::Line& line) {
   line_ = &line;
   status_.stages = line.stage_names();
   status_.live = source.description().live;
+  status_.frames_per_s = pipeline::frames_per_s(source.description());
   // A recording is played whole; of a camera only the newest picture counts.
   wait_for_window_ = !status_.live;
   letting_go_ = false;
@@ -87,7 +89,8 @@ void Viewer::finished(const pipeline::Work& work) {
     const auto taken = [this] { return !newest_ || letting_go_; };
     if (wait_for_window_) taken_.wait_for(lock, std::chrono::milliseconds(500), taken);
     if (newest_) ++status_.unshown;
-    newest_ = Shown{std::move(frame), work.stage_ms, work.pose.has_value()};
+    newest_ = Shown{std::move(frame), work.stage_ms, {}};
+    if (work.pose) newest_->camera_from_world = work.pose->camera_from_world;
   }
   woken_();
 }

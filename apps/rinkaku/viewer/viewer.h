@@ -45,7 +45,7 @@ class Viewer final : public pipeline::Watcher {
   struct Shown {
     Frame frame;
     std::array<float, pipeline::Work::most_stages> stage_ms{};
-    bool posed = false;
+    std::optional<RigidTransform> camera_from_world;  ///< empty without a pose
   };
   std::optional<Shown> take_newest();
 
@@ -68,7 +68,8 @@ class Viewer final : public pipeline::Watcher {
     std::int64_t unshown = 0;  ///< finished frames that a newer one took the place of before they were shown
     std::string trouble;       ///< why the newest change wasn't drawn; empty if it was
     bool live = false;
-    bool changing = false;  ///< a change is being prepared
+    double frames_per_s = 25;  ///< of the plate
+    bool changing = false;     ///< a change is being prepared
   };
   Status status() const;
 

@@ -59,6 +59,56 @@ TEST(TomlEdit, AddsWhatIsMissing) {
   EXPECT_EQ(with_value(text, {{"light"}, {"direction"}}, "[1, 0, 0]"), text + "\n[light]\ndirection = [1, 0, 0]\n");
 }
 
+const std::string arrows =
+    "[[water.surface]] # a brook\n"
+    "outline = 1\n"
+    "[[water.surface.arrow]] # the first\n"
+    "from = [1, # x\n"
+    "  2] # y\n"
+    "\n"
+    "[[water.surface]]\n"
+    "arrow = [{ from = 3 }, # third\n"
+    "  { from = 4 }]\n"
+    "[[water.surface]]\n"
+    "outline = 2 # still\n"
+    "# the end\n"
+    "[output]\n";
+
+TEST(TomlEdit, AddsTablesAsTheirNeighboursAreWritten) {
+  const std::vector<std::string> entries = {"from = 7", "to = 8"};
+  EXPECT_EQ(with_table(arrows, {{"water"}, {"surface"}, {"arrow"}}, entries),
+            replaced(arrows, "  2] # y\n", "  2] # y\n[[water.surface.arrow]]\nfrom = 7\nto = 8\n"));
+  EXPECT_EQ(with_table(arrows, {{"water"}, {"surface", 1}, {"arrow"}}, entries),
+            replaced(arrows, "{ from = 4 }]", "{ from = 4 }, { from = 7, to = 8 }]"));
+  EXPECT_EQ(with_table(arrows, {{"water"}, {"surface", 2}, {"arrow"}}, entries),
+            replaced(arrows, "# still\n", "# still\n[[water.surface.arrow]]\nfrom = 7\nto = 8\n"));
+  EXPECT_EQ(with_table("[a]\nb = { c = 1 }\n", {{"a"}, {"b"}, {"d"}}, entries),
+            "[a]\nb = { c = 1, d = [{ from = 7, to = 8 }] }\n");
+  EXPECT_EQ(with_table("[a]\nd = [] # none\n", {{"a"}, {"d"}}, entries), "[a]\nd = [{ from = 7, to = 8 }] # none\n");
+  EXPECT_EQ(with_table("[a]", {{"a"}, {"d"}}, entries), "[a]\n[[a.d]]\nfrom = 7\nto = 8");
+  EXPECT_THROW(with_table(arrows, {{"river"}, {"arrow"}}, entries), Error);
+  EXPECT_THROW(with_table("[a]\nd = 1\n", {{"a"}, {"d"}}, entries), Error);
+}
+
+TEST(TomlEdit, TakesTablesAwayAndNothingElse) {
+  EXPECT_EQ(without_table(arrows, {{"water"}, {"surface"}, {"arrow"}}),
+            replaced(arrows, "[[water.surface.arrow]] # the first\nfrom = [1, # x\n  2] # y\n", ""));
+  EXPECT_EQ(without_table("a = { d = [{ e = 1 }, { e = 2 }] }", {{"a"}, {"d"}}), "a = { d = [{ e = 2 }] }");
+  EXPECT_EQ(without_table("a = { d = [{ e = 1 }, { e = 2 }] }", {{"a"}, {"d", 1}}), "a = { d = [{ e = 1 }] }");
+  EXPECT_EQ(without_table("a = { d = [{ e = 1 }] }", {{"a"}, {"d"}}), "a = { d = [] }");
+  EXPECT_THROW(without_table(arrows, {{"water"}, {"surface"}, {"arrow", 1}}), Error);
+}
+
+// A comment may stand between a table and the comma before it.
+TEST(TomlEdit, WhatIsLeftWhenATableGoesReadsBack) {
+  const Path gone = {{"water"}, {"surface", 1}, {"arrow", 1}};
+  const std::string left = without_table(arrows, gone);
+  const Value document = parse_text(left, "left");
+  EXPECT_EQ(find(document, gone), nullptr);
+  EXPECT_NE(find(document, {{"water"}, {"surface", 1}, {"arrow"}, {"from"}}), nullptr);
+  EXPECT_NE(left.find("# third"), std::string::npos);
+}
+
 TEST(TomlEdit, EveryEditReadsBackAsWritten) {
   const std::vector<Path> places = {{{"object"}, {"outline"}, {"width_px"}},
                                     {{"object"}, {"toon"}, {"bands"}},
