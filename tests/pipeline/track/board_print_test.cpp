@@ -13,11 +13,6 @@
 #include "tests/pipeline/track/track_test_support.h"
 #include "tests/support/test_data.h"
 
-#ifdef RINKAKU_SANITIZED
-// The system's font library keeps its patterns to the end of the program.
-extern "C" const char* __lsan_default_suppressions() { return "leak:libfontconfig\n"; }
-#endif
-
 namespace rinkaku::track {
 namespace {
 
