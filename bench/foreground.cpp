@@ -1,14 +1,15 @@
 // What finding filmed people costs: CPU time a frame on one core for each way, the refinement, and the thing's own
-// colours, on a recording. See docs/mattes.md.
+// colours, on a recording; and how fast its whole scene is rendered with each. See docs/mattes.md.
 //
 //   rinkaku-bench-foreground [FOLDER]
 //
-// FOLDER holds video.mp4 and clean.jpg; by default recordings/tripod. For the whole pipeline's rate, render a scene:
-// `rinkaku render` prints it.
+// FOLDER holds video.mp4, clean.jpg and scene.toml; by default recordings/tripod.
 
 #include <algorithm>
+#include <atomic>
 #include <cstdio>
 #include <ctime>
+#include <filesystem>
 #include <functional>
 #include <memory>
 #include <string>
@@ -22,6 +23,7 @@
 #include "pipeline/matte/person_network.h"
 #include "pipeline/matte/refinement.h"
 #include "pipeline/matte/segmentation.h"
+#include "pipeline/pipeline.h"
 #include "pipeline/source/source.h"
 
 namespace {
@@ -66,6 +68,28 @@ void measure(matte::MatteEstimator& estimator, const std::vector<Frame>& frames)
   print("own colours", coloured);
 }
 
+// The scene's things by this method, all threads, to H.264; the file is thrown away.
+void render_whole(const std::string& folder, const char* name, const pipeline::ForegroundScene::Method& method,
+                  bool refine) {
+  const auto file = std::filesystem::temp_directory_path() / "rinkaku-bench-foreground.mp4";
+  pipeline::Scene scene = pipeline::read_scene(folder + "/scene.toml");
+  for (pipeline::ForegroundScene& each : scene.foregrounds) {
+    each.methods = {method};
+    each.options.refine = refine;
+  }
+  pipeline::RenderOptions options;
+  options.output = file.string();
+  options.overwrite = true;
+  const std::atomic<bool> never{false};
+  pipeline::RenderReport report;
+  const double cpu =
+      cpu_ms([&] { report = pipeline::render(pipeline::prepare(std::move(scene), options), options, never); });
+  const auto frames = static_cast<double>(report.frames);
+  std::printf("whole pipeline with %s: %.1f frames/s, %.1f ms of CPU a frame\n", name, frames / report.seconds,
+              cpu / frames);
+  std::filesystem::remove(file);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -85,6 +109,9 @@ int main(int argc, char** argv) {
       network.find(picture, part, likely);
     });
     measure(segmentation, frames);
+    frames.clear();
+    render_whole(folder, "difference", pipeline::DifferenceMatteScene{folder + "/clean.jpg", {}}, false);
+    render_whole(folder, "segmentation", pipeline::SegmentationScene{}, true);
   } catch (const Error& error) {
     std::fprintf(stderr, "%s\n", error.what());
     return error.exit_status();

@@ -102,8 +102,10 @@ class Run {
   const source::Description& described() const { return source_->description(); }
   // On the video's clock, whatever its file's says.
   double time_s(const Frame& frame) const { return frame.time_s() - described().first_time_s(); }
-  // A world in the plate's place doesn't fade with what was drawn into it.
-  double opacity(const Work& work) const { return world_ ? 1.0 : work.pose ? work.pose->opacity : 0.0; }
+  static double cg_opacity(const Work& work) { return work.pose ? work.pose->opacity : 0.0; }
+  // A world in the plate's place and lines around what was filmed don't fade with the CG.
+  double opacity(const Work& work) const { return fades_early() ? 1.0 : cg_opacity(work); }
+  bool fades_early() const { return world_ || lines_around_things_; }
   void notice(std::vector<std::string> lines) {
     std::move(lines.begin(), lines.end(), std::back_inserter(report_.notices));
   }
@@ -128,6 +130,7 @@ class Run {
   passes::Layer scratch_;  // of the compositing thread
   std::optional<LayerFiles> layers_;
   std::optional<World> world_;
+  bool lines_around_things_ = false;
   FramePool pool_;
   passes::Blender blender_;
   Output output_;
@@ -245,21 +248,24 @@ void Run::add_lens() {
 void Run::add_layer_files() {
   if (!runs("layers")) return;
   layers_.emplace(prepared_, options_, described());
-  line_.add(Group::Composite, "layers", [this](Work& work) { layers_->write(work, opacity(work)); });
+  line_.add(Group::Composite, "layers", [this](Work& work) { layers_->write(work, cg_opacity(work)); });
 }
 
 void Run::add_merging() {
   if (!runs("merge")) return;
   if (runs("background")) world_.emplace(*prepared_.scene.background, described());
+  for (const ForegroundScene& each : prepared_.scene.foregrounds) {
+    lines_around_things_ = lines_around_things_ || each.options.line.has_value();
+  }
   line_.add(Group::Composite, "merge", [this](Work& work) { merge(work); });
 }
 
 void Run::merge(Work& work) {
-  if (world_) {
-    if (!drawing_) empty_layers(work);
-    for (passes::Layer& layer : work.slices) passes::fade(layer, work.pose ? work.pose->opacity : 0.0);
-    passes::put_behind(world_->next(), work.slices.back(), scratch_);
+  if (!drawing_) empty_layers(work);
+  if (fades_early()) {
+    for (passes::Layer& layer : work.slices) passes::fade(layer, cg_opacity(work));
   }
+  if (world_) passes::put_behind(world_->next(), work.slices.back(), scratch_);
   passes::merge({work.slices, work.mattes, runs("composite")}, work.layer);
 }
 

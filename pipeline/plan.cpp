@@ -17,6 +17,10 @@ struct Facts {
   bool anything() const { return draws() || scene.water; }
   bool composites() const { return scene.output.content == OutputScene::Content::Composite; }
   bool replaces_plate() const { return composites() && scene.background.has_value(); }
+  bool lines_around_things() const {
+    return std::any_of(scene.foregrounds.begin(), scene.foregrounds.end(),
+                       [](const ForegroundScene& each) { return each.options.line.has_value(); });
+  }
   template <typename Wanted>
   std::size_t count(Wanted wanted) const {
     return static_cast<std::size_t>(std::count_if(scene.objects.begin(), scene.objects.end(), wanted));
@@ -146,9 +150,10 @@ Verdict background(const Facts& f) {
 
 Verdict merge(const Facts& f) {
   if (f.scene.foregrounds.empty()) return {false, "the scene has no [[foreground]]"};
-  if (!f.anything() && !f.replaces_plate()) return {false, no_object};
-  return {true, f.anything() ? "CG goes before and behind what was filmed, by depth"
-                             : "what was filmed goes before the background"};
+  if (!f.anything() && !f.replaces_plate() && !f.lines_around_things()) return {false, no_object};
+  return {true, f.anything()         ? "CG goes before and behind what was filmed, by depth"
+                : f.replaces_plate() ? "what was filmed goes before the background"
+                                     : "lines are drawn around what was filmed"};
 }
 
 Verdict control_points(const Facts& f) {
@@ -191,6 +196,7 @@ Verdict lens(const Facts& f) {
 Verdict composite(const Facts& f) {
   if (!f.composites()) return {false, "the output is the CG alone"};
   if (f.replaces_plate()) return {true, "background and CG are laid over the plate's own planes"};
+  if (f.lines_around_things() && !f.anything()) return {true, "lines are laid over the plate's own planes"};
   if (!f.anything()) return {false, "nothing is drawn: the plate goes to the sink untouched"};
   return {true, "CG is laid over the plate's own planes"};
 }

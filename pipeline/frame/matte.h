@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -22,6 +23,11 @@ struct Matte {
   /// meaningless elsewhere.
   std::vector<std::uint8_t> own_rgb;
   double distance_m = 0;  ///< along the camera's axis
+
+  /// A line around the thing, just behind it: how much of each pixel of line_rect it covers; empty if there is none.
+  PixelRect line_rect;
+  std::vector<std::uint8_t> line;
+  std::array<std::uint8_t, 3> line_rgb{};
 
   const std::uint8_t* alpha_row(int y_px) const { return alpha.data() + static_cast<std::size_t>(y_px) * width_px; }
   std::uint8_t* alpha_row(int y_px) { return alpha.data() + static_cast<std::size_t>(y_px) * width_px; }

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cstring>
 
+#include "pipeline/matte/count.h"
+
 namespace rinkaku::matte {
 namespace {
 
@@ -30,6 +32,7 @@ int last_covered(const std::uint8_t* row, int from, int end) {
 }  // namespace
 
 void begin_matte(const Frame& frame, Matte& matte) {
+  ++counters().mattes;
   matte.frame_number = frame.number;
   matte.width_px = frame.format.width_px;
   matte.height_px = frame.format.height_px;

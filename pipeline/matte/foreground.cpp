@@ -4,6 +4,8 @@
 #include <cstdlib>
 #include <utility>
 
+#include "pipeline/matte/count.h"
+
 namespace rinkaku::matte {
 namespace {
 
@@ -24,7 +26,9 @@ Foreground::Foreground(std::vector<std::unique_ptr<MatteEstimator>> estimators, 
     : estimators_(std::move(estimators)),
       options_(options),
       own_colours_known_(estimators_.size() == 1 && estimators_.front()->knows_behind() && !options.refine) {
+  ++counters().things;
   if (options.refine) refinement_.emplace();
+  if (options.line) line_.emplace(*options.line);
 }
 
 void Foreground::combine(const Matte& with, Matte& matte) const {
@@ -46,7 +50,7 @@ void Foreground::combine(const Matte& with, Matte& matte) const {
   }
 }
 
-void Foreground::find(const Frame& frame, Matte& matte) {
+void Foreground::find_alpha(const Frame& frame, Matte& matte) {
   estimators_.front()->estimate(frame, matte);
   for (std::size_t i = 1; i < estimators_.size(); ++i) {
     estimators_[i]->estimate(frame, other_);
@@ -54,10 +58,16 @@ void Foreground::find(const Frame& frame, Matte& matte) {
   }
   if (estimators_.size() > 1) find_rect(matte);
   if (options_.within) keep_within(*options_.within, matte);
-  if (own_colours_known_) return;
-  const Picture& picture = reader_.read(frame);
-  if (refinement_) refinement_->refine(picture, matte);
-  own_colours_.find(picture, matte);
+}
+
+void Foreground::find(const Frame& frame, Matte& matte) {
+  find_alpha(frame, matte);
+  if (!own_colours_known_) {
+    const Picture& picture = reader_.read(frame);
+    if (refinement_) refinement_->refine(picture, matte);
+    own_colours_.find(picture, matte);
+  }
+  if (line_) line_->draw(matte);
 }
 
 }  // namespace rinkaku::matte

@@ -9,6 +9,7 @@
 #include "pipeline/matte/own_colour.h"
 #include "pipeline/matte/picture.h"
 #include "pipeline/matte/refinement.h"
+#include "pipeline/matte/thing_line.h"
 
 namespace rinkaku::matte {
 
@@ -20,6 +21,8 @@ struct ForegroundOptions {
   std::optional<PixelRect> within{};
   /// Borders are moved to the plate's own, and kept steady.
   bool refine = false;
+  /// A line is drawn around the thing.
+  std::optional<ThingLineOptions> line{};
 };
 
 /// A filmed thing: one or several ways to find its matte, and what makes one good matte of them.
@@ -29,10 +32,11 @@ class Foreground {
   Foreground(Foreground&&) noexcept = default;
   ~Foreground() = default;
 
-  /// The matte of this frame, with own colours; distance_m is left as it is.
+  /// The matte of this frame, with own colours and line; distance_m is left as it is.
   void find(const Frame& frame, Matte& matte);
 
  private:
+  void find_alpha(const Frame& frame, Matte& matte);
   void combine(const Matte& with, Matte& matte) const;
 
   std::vector<std::unique_ptr<MatteEstimator>> estimators_;
@@ -41,6 +45,7 @@ class Foreground {
   std::optional<Refinement> refinement_;
   PictureReader reader_;
   OwnColours own_colours_;
+  std::optional<ThingLine> line_;
   Matte other_;
 };
 

@@ -13,6 +13,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "pipeline/frame/error.h"
+#include "pipeline/matte/count.h"
 
 namespace rinkaku::matte {
 namespace {
@@ -70,6 +71,7 @@ void PersonNetwork::State::fill(const Picture& picture, const cv::Size& size, cv
 }
 
 PersonNetwork::PersonNetwork(const std::string& model_file) : state_(std::make_unique<State>()) {
+  ++counters().networks;
   const SilentOpenCv silent;
   const char* const remedy = "run scripts/fetch-model, or convert one by scripts/tflite-to-onnx";
   for (std::size_t i = 0; i < sizes.size(); ++i) {

@@ -95,17 +95,29 @@ PixelRect read_within(const Table& foreground) {
   return {v[0], v[1], v[2], v[3]};
 }
 
+std::optional<matte::ThingLineOptions> read_line(const Table& foreground) {
+  matte::ThingLineOptions options;
+  if (const auto outline = foreground.table_unless_flag("outline")) {
+    options.width_px = outline->number("width_px", Limits::above(0, 100)).value_or(options.width_px);
+    options.colour = read_colour(*outline, "colour").value_or(options.colour);
+  } else if (!foreground.has("outline") || !*foreground.flag("outline")) {
+    return std::nullopt;
+  }
+  return options;
+}
+
 }  // namespace
 
 toml::Schema foreground_schema() {
   return {{.path = "foreground",
            .keys = {"name", "method", "combine", "chroma", "difference", "file", "segmentation", "refine", "distance_m",
-                    "on_ground", "within_px"},
+                    "on_ground", "within_px", "outline"},
            .repeated = true},
           {.path = "foreground.chroma", .keys = {"key", "clip_low", "clip_high", "hue_deg", "despill"}},
           {.path = "foreground.difference", .keys = {"clean", "threshold", "deepest_shadow", "memory_frames"}},
           {.path = "foreground.file", .keys = {"video", "images"}},
-          {.path = "foreground.segmentation", .keys = {"model"}}};
+          {.path = "foreground.segmentation", .keys = {"model"}},
+          {.path = "foreground.outline", .keys = {"width_px", "colour"}}};
 }
 
 ForegroundScene read_foreground(const Table& foreground) {
@@ -131,6 +143,7 @@ ForegroundScene read_foreground(const Table& foreground) {
   // A network's borders are as coarse as its pixels.
   const bool coarse = std::find(methods.begin(), methods.end(), "segmentation") != methods.end();
   scene.options.refine = foreground.flag("refine").value_or(coarse);
+  scene.options.line = read_line(foreground);
   foreground.exclude("distance_m", "on_ground");
   scene.distance_m = foreground.number("distance_m", Limits::above(0, 1e6));
   scene.on_ground = foreground.flag("on_ground").value_or(false);

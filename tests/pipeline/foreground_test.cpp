@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <set>
 
+#include "pipeline/matte/count.h"
 #include "tests/pipeline/shot_folder.h"
 
 namespace rinkaku::pipeline {
@@ -255,6 +256,64 @@ TEST(FilmedThings, NothingRunsInASceneWithoutThem) {
     EXPECT_NE(stage.name, "matte");
     EXPECT_NE(stage.name, "merge");
   }
+}
+
+TEST(FilmedThings, NothingOfThemIsMadeInASceneWithoutThem) {
+  const ShotFolder folder;
+  folder.noise_clip("in.mkv", small, 2);
+  write_mattes(folder, bars(2, 255));
+  const auto made_by = [&](const std::string& scene) {
+    const matte::Made before = matte::made();
+    folder.render(scene, {.output = "out.mkv", .codec = "ffv1", .overwrite = true});
+    const matte::Made after = matte::made();
+    return matte::Made{after.things - before.things, after.networks - before.networks, after.mattes - before.mattes};
+  };
+  EXPECT_EQ(made_by(test::plate + camera + test::cube), matte::Made{});
+  EXPECT_EQ(made_by(test::plate), matte::Made{});
+  // Nor where nothing would read their mattes.
+  EXPECT_EQ(made_by(test::plate + filmed("distance_m = 1")), matte::Made{});
+  EXPECT_EQ(made_by(test::plate + camera + filmed("distance_m = 1") + test::cube), (matte::Made{1, 0, 2}));
+}
+
+// Red, 3 pixels wide, about the bar.
+const std::string red_line = "outline = { width_px = 3, colour = \"#ff0000\" }\n";
+
+TEST(FilmedThings, LineAroundThemNeedsNoCgAndLeavesTheRestOfThePlate) {
+  const ShotFolder folder;
+  const auto plate = folder.noise_clip("in.mkv", small, 2);
+  write_mattes(folder, bars(2, 255));
+  folder.render(test::plate + filmed(red_line), {.output = "out.mkv", .codec = "ffv1"});
+  const auto out = folder.frames("out.mkv");
+  for (std::size_t i = 0; i < 2; ++i) {
+    for (int y = 0; y < 48; ++y) {
+      for (int x = 0; x < 64; ++x) {
+        const int luma = test::sample(out[i], 0, x, y);
+        // Red by BT.709 in limited range: 16 + 219 * 0.2126.
+        if (x == 22 || x == 41) {
+          ASSERT_NEAR(luma, 63, 1) << x << "," << y;
+        }
+        if (in_bar(x) || x < 20 || x >= 44) {
+          ASSERT_EQ(luma, test::sample(plate[i], 0, x, y)) << x << "," << y;
+        }
+      }
+    }
+  }
+}
+
+TEST(FilmedThings, LineAroundThemLiesAtTheirDepth) {
+  const ShotFolder folder;
+  folder.noise_clip("in.mkv", small, 1);
+  write_mattes(folder, bars(1, 255));
+  const auto rendered = [&](const std::string& foreground) {
+    folder.render(test::plate + camera + foreground + test::cube,
+                  {.output = "out.mkv", .codec = "ffv1", .overwrite = true});
+    return std::move(folder.frames("out.mkv").at(0));
+  };
+  // The cube fills the middle of the picture.
+  const Frame without = rendered(""), before = rendered(filmed("distance_m = 1\n" + red_line)),
+              behind = rendered(filmed("distance_m = 3\n" + red_line));
+  EXPECT_NEAR(test::sample(before, 0, 22, 24), 63, 1);
+  EXPECT_EQ(test::sample(behind, 0, 22, 24), test::sample(without, 0, 22, 24));
 }
 
 TEST(FilmedThings, MattesThatEndTooSoonEndTheRun) {

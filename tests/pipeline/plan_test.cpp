@@ -350,6 +350,17 @@ TEST(Plan, MattesAreFoundOnlyWhereSomethingReadsThem) {
   EXPECT_TRUE(plan_of(scene, pinhole(), {.layers = true, .no_streams_because = {}}).runs("matte"));
 }
 
+TEST(Plan, LinesAroundFilmedThingsNeedNoObjectAndNoOpenGl) {
+  Scene scene = empty_scene();
+  scene.foregrounds.emplace_back();
+  EXPECT_FALSE(plan_of(scene).runs("matte"));
+  scene.foregrounds[0].options.line.emplace();
+  const Plan plan = plan_of(scene);
+  for (const char* name : {"matte", "merge", "composite"}) EXPECT_TRUE(plan.runs(name)) << name;
+  EXPECT_FALSE(plan.runs("draw"));
+  EXPECT_EQ(stage(plan, "merge").why, "lines are drawn around what was filmed");
+}
+
 TEST(Plan, WorldInThePlatesPlaceNeedsNoObjectAndNoOpenGl) {
   Scene scene = empty_scene();
   scene.foregrounds.emplace_back();

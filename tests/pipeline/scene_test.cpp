@@ -346,16 +346,16 @@ TEST(Scene, TheCallsInputReplacesThePlates) {
 
 TEST(SceneFile, ForegroundSaysHowItsMatteIsFoundAndHowFarAwayItIs) {
   const SceneFolder folder;
-  const Scene scene =
-      folder.read(tracked +
-                  "[background]\ncolour = \"#ff8000\"\n"
-                  "[[foreground]]\nname = \"man\"\nmethod = [\"chroma\", \"difference\"]\n"
-                  "combine = \"minimum\"\nchroma = { key = \"#00ff00\", hue_deg = 40 }\n"
-                  "difference = { clean = \"a.mp4\", threshold = 4 }\ndistance_m = 2.5\n"
-                  "within_px = [1, 2, 30, 40]\n"
-                  "[[foreground]]\nmethod = \"file\"\nfile = { images = \"m/%d.png\" }\non_ground = true\n"
-                  "[[foreground]]\nmethod = \"segmentation\"\nsegmentation = { model = \"a.mp4\" }\ndistance_m = 1\n"
-                  "[[foreground]]\nmethod = [\"chroma\", \"segmentation\"]\nrefine = false\ndistance_m = 1\n");
+  const Scene scene = folder.read(
+      tracked +
+      "[background]\ncolour = \"#ff8000\"\n"
+      "[[foreground]]\nname = \"man\"\nmethod = [\"chroma\", \"difference\"]\n"
+      "combine = \"minimum\"\nchroma = { key = \"#00ff00\", hue_deg = 40 }\n"
+      "difference = { clean = \"a.mp4\", threshold = 4 }\ndistance_m = 2.5\n"
+      "within_px = [1, 2, 30, 40]\noutline = { width_px = 2, colour = \"#0000ff\" }\n"
+      "[[foreground]]\nmethod = \"file\"\nfile = { images = \"m/%d.png\" }\non_ground = true\noutline = true\n"
+      "[[foreground]]\nmethod = \"segmentation\"\nsegmentation = { model = \"a.mp4\" }\ndistance_m = 1\n"
+      "[[foreground]]\nmethod = [\"chroma\", \"segmentation\"]\nrefine = false\ndistance_m = 1\n");
   ASSERT_EQ(scene.foregrounds.size(), 4u);
   EXPECT_EQ(std::get<SegmentationScene>(scene.foregrounds[2].methods[0]).model, (folder / "a.mp4").string());
   EXPECT_TRUE(scene.foregrounds[2].options.refine);  // a network's are not
@@ -370,6 +370,11 @@ TEST(SceneFile, ForegroundSaysHowItsMatteIsFoundAndHowFarAwayItIs) {
   EXPECT_EQ(std::get<DifferenceMatteScene>(man.methods[1]).clean, (folder / "a.mp4").string());
   EXPECT_EQ(man.options.combine, matte::ForegroundOptions::Combine::Minimum);
   EXPECT_EQ(man.options.within, (PixelRect{1, 2, 30, 40}));
+  ASSERT_TRUE(man.options.line);
+  EXPECT_EQ(man.options.line->width_px, 2);
+  EXPECT_EQ(man.options.line->colour[2], 1);
+  EXPECT_EQ(scene.foregrounds[1].options.line->width_px, 3);
+  EXPECT_FALSE(scene.foregrounds[2].options.line);
   EXPECT_EQ(man.distance_m, 2.5);
   EXPECT_FALSE(man.options.refine);  // their borders are the plate's already
   EXPECT_TRUE(scene.foregrounds[1].on_ground);

@@ -68,6 +68,27 @@ void cut(const Matte& matte, bool own_colours, Layer& behind) {
   }
 }
 
+// The line around a thing, over what lies behind it.
+void lay_line(const Matte& matte, Layer& under) {
+  const PixelRect& rect = matte.line_rect;
+  if (rect.empty()) return;
+  const auto& rgb = matte.line_rgb;
+  for (int y = 0; y < rect.height_px; ++y) {
+    const std::uint8_t* line = matte.line.data() + static_cast<std::size_t>(y) * rect.width_px;
+    std::uint8_t* at =
+        under.rgba.data() + (static_cast<std::size_t>(rect.y_px + y - under.rect.y_px) * under.rect.width_px +
+                             rect.x_px - under.rect.x_px) *
+                                4;
+    for (int x = 0; x < rect.width_px; ++x, at += 4) {
+      if (line[x] == 0) continue;
+      const std::uint8_t top[4] = {static_cast<std::uint8_t>(over_255(rgb[0] * line[x])),
+                                   static_cast<std::uint8_t>(over_255(rgb[1] * line[x])),
+                                   static_cast<std::uint8_t>(over_255(rgb[2] * line[x])), line[x]};
+      row_over(top, at, 1);
+    }
+  }
+}
+
 // Inside under's rectangle.
 void over(const Layer& top, Layer& under) {
   const PixelRect rect = intersection(top.rect, under.rect);
@@ -91,10 +112,14 @@ void merge(const MergeInput& input, Layer& out) {
   assert(input.layers.size() == input.mattes.size() + 1);
   PixelRect rect;
   for (const Layer& layer : input.layers) rect = united(rect, layer.rect);
+  for (const Matte& matte : input.mattes) rect = united(rect, matte.line_rect);
   clear(out, rect.empty() ? PixelRect{} : rect);
   if (rect.empty()) return;
   for (std::size_t i = input.layers.size(); i-- > 0;) {
-    if (i < input.mattes.size()) cut(input.mattes[i], input.own_colours, out);
+    if (i < input.mattes.size()) {
+      lay_line(input.mattes[i], out);
+      cut(input.mattes[i], input.own_colours, out);
+    }
     over(input.layers[i], out);
   }
 }
