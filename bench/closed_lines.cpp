@@ -1,7 +1,7 @@
 // Whether lines are closed: draws meshes from many sides, once with a line of even width and once with one that follows
 // curvature, and walks their contours in the pictures. Prints for each mesh how much of the contour was looked at and
-// how many gaps were found, with the first view and pixel of them; "thin" are places whose line, 3 pixels wide, has
-// less than 1.5 of them. Exit status 1 if there was one.
+// how many gaps were found, with the first view and pixel of them; a gap is a place without ink as far out as the
+// line, 3 pixels wide, reaches; "thin" are places whose line ends before that. Exit status 1 if there was one.
 //
 //   rinkaku-bench-closed-lines [VIEWS [MESH_OR_FOLDER...]]
 //
@@ -33,6 +33,7 @@ using namespace rinkaku;
 namespace fs = std::filesystem;
 
 constexpr int kSide_px = 512;
+constexpr float kLine_px = 3;
 
 // Spread evenly over all directions (a golden spiral), with another up each, near and far in turn.
 passes::View view_of(int i, int views) {
@@ -63,11 +64,12 @@ std::uint64_t walk(const fs::path& file, int views) {
   const mesh::Sphere ball = mesh::bounding_sphere(mesh.positions);
   const glm::dmat4 place =
       glm::translate(glm::scale(glm::dmat4(1), glm::dvec3(1 / ball.radius)), -glm::dvec3(ball.centre));
-  outline::LineWalker walker(mesh, topology);
+  outline::LineWalker walker(mesh, topology, kLine_px - 0.5);
   std::uint64_t all_gaps = 0;
   for (const pipeline::LineMethod method : {pipeline::LineMethod::Uniform, pipeline::LineMethod::Curvature}) {
     pipeline::OutlineScene line;
     line.method = method;
+    line.width_px = kLine_px;
     line.colour = {1, 0, 0};
     passes::ToonOptions unlit;
     unlit.bands = 0;
