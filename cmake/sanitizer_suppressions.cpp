@@ -21,8 +21,13 @@ extern "C" const char* __tsan_default_suppressions() {
          "called_from_lib:libopencv_core.so\n"
          "called_from_lib:libopencv_imgproc.so\n"
          "called_from_lib:libswscale.so\n"
+         "called_from_lib:libtbb.so\n"
          "called_from_lib:libx264.so\n"
          "called_from_lib:swrast_dri.so\n"
+         "mutex:nptl_deallocate_tsd\n"  // OpenCV's memory of a thread, at that one's end
+         "deadlock:libgdal.so\n"
+         "race:libopencv_aruco.so\n"
+         "race:libopencv_calib3d.so\n"
          "race:libopencv_core.so\n"
          "race:libopencv_imgproc.so\n"
          "race:swrast_dri.so\n"
