@@ -22,6 +22,7 @@
 #include "pipeline/stages/layer_files.h"
 #include "pipeline/stages/water_stage.h"
 #include "pipeline/stages/world.h"
+#include "pipeline/track/ahead.h"
 #include "pipeline/track/tracker.h"
 
 namespace rinkaku::pipeline {
@@ -165,6 +166,7 @@ void Run::open_source() {
 void Run::add_tracking() {
   if (!runs("track")) return;
   tracker_ = make_tracker(prepared_, described());
+  if (options_.predict_poses) tracker_ = track::make_ahead(std::move(tracker_));
   if (watcher_) tracker_ = watcher_->tracked_by(std::move(tracker_));
   line_.add(Group::Track, "track", [this](Work& work) {
     if (!work.frame.repeated) last_pose_ = tracker_->track(work.frame);

@@ -24,6 +24,7 @@ struct RenderOptions {
   std::int64_t end_frame = std::numeric_limits<std::int64_t>::max();  ///< exclusive
   std::string layers_folder{};                                        ///< empty: layers are not written
   bool overwrite = false;
+  bool predict_poses = false;  ///< no frame waits for its own pose (see track::make_ahead); for live use
   std::function<void(const std::string& line)> tell{};  ///< what set-up has to say at once, as it takes long
   std::string virtual_camera{};                         ///< a video output device that gets the frames as well
   bool watched = false;                                 ///< by a window: only `output` is then written, if it is given

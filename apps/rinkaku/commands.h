@@ -35,6 +35,7 @@ struct ViewCall {
   std::string screenshots;
   std::string shaders;
   double seconds = 0;
+  bool lowest_latency = false;
   bool headless = false;
   bool no_panel = false;
   bool force = false;

@@ -131,6 +131,8 @@ struct CommandLine {
                     "New folder to keep the session in: 'rinkaku render FOLDER' makes the same frames again");
     sub->add_option("--virtual-camera", c.virtual_camera,
                     "Video output device (v4l2loopback), or pipewire, that other programs read as a camera");
+    sub->add_flag("--lowest-latency", c.lowest_latency,
+                  "Draw with poses that are predicted from the last ones, in place of waiting for a frame's own");
     sub->add_flag("--headless", c.headless, "Without a window, until Ctrl-C or --seconds");
     add_force(sub, c.force);
   }

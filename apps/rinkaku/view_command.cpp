@@ -81,6 +81,7 @@ int view(const ViewCall& call, bool live) {
   options.run.virtual_camera = call.virtual_camera;
   options.run.codec = call.codec;
   options.run.overwrite = call.force;
+  options.run.predict_poses = call.lowest_latency;
   options.seconds = call.seconds;
   options.session = call.session;
   options.headless = call.headless;

@@ -10,8 +10,8 @@ std::string error_text(int code);
 /// Keeps the FFmpeg libraries quiet on standard error and hears what one of their contexts (AVFormatContext,
 /// AVCodecContext) complains about. The first listener of a process silences the libraries for good.
 ///
-/// A threaded decoder logs by a context for each thread; all share their `opaque`, so where that is set, it is what to
-/// listen to. The context must live as long as the listener or never log again. Thread-safe.
+/// A threaded decoder is heard as a whole if its `opaque` points at its own context. The context must live as long as
+/// the listener or never log again. Thread-safe.
 class LogListener {
  public:
   explicit LogListener(const void* context);

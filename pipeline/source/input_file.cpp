@@ -146,8 +146,7 @@ Demuxer open_demuxer(const Input& input, const OpenOptions& options) {
   return out;
 }
 
-ffmpeg::CodecPtr open_decoder(const Input& input, const Demuxer& demuxer, const OpenOptions& options,
-                              FrameMemory& memory) {
+ffmpeg::CodecPtr open_decoder(const Input& input, const Demuxer& demuxer, const OpenOptions& options) {
   const AVStream& stream = *demuxer.context->streams[demuxer.video_stream];
   const AVCodec* codec = avcodec_find_decoder(stream.codecpar->codec_id);
   if (!codec) {
@@ -156,11 +155,11 @@ ffmpeg::CodecPtr open_decoder(const Input& input, const Demuxer& demuxer, const 
   }
   ffmpeg::CodecPtr decoder(avcodec_alloc_context3(codec));
   if (!decoder) throw runtime_failure(input.name, "out of memory");
-  memory.serve(*decoder);
-  const ffmpeg::LogListener listener(decoder->opaque);
+  const ffmpeg::LogListener listener(decoder.get());
   avcodec_parameters_to_context(decoder.get(), stream.codecpar);
   decoder->pkt_timebase = stream.time_base;
   decoder->thread_count = options.threads;
+  decoder->opaque = decoder.get();
   decoder->err_recognition = AV_EF_CRCCHECK;
   decoder->thread_type = FF_THREAD_FRAME | FF_THREAD_SLICE;
   const int code = avcodec_open2(decoder.get(), codec, nullptr);

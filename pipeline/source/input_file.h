@@ -5,7 +5,6 @@
 
 #include "pipeline/ffmpeg/handles.h"
 #include "pipeline/ffmpeg/log.h"
-#include "pipeline/source/frame_memory.h"
 #include "pipeline/source/source.h"
 
 namespace rinkaku::source {
@@ -33,8 +32,7 @@ struct Demuxer {
 /// Opens the demuxer and picks the stream of pictures, all others are discarded. Throws Error (Input).
 Demuxer open_demuxer(const Input& input, const OpenOptions& options);
 
-/// A decoder for the picked stream, threads on, with pictures in `memory`. Throws Error (Input) if FFmpeg has none.
-ffmpeg::CodecPtr open_decoder(const Input& input, const Demuxer& demuxer, const OpenOptions& options,
-                              FrameMemory& memory);
+/// A decoder for the picked stream, threads on. Throws Error (Input) if FFmpeg has none.
+ffmpeg::CodecPtr open_decoder(const Input& input, const Demuxer& demuxer, const OpenOptions& options);
 
 }  // namespace rinkaku::source

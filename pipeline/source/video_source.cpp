@@ -34,8 +34,8 @@ std::string count_of(std::int64_t count, const char* one, const char* many) {
 VideoSource::VideoSource(Input input, const OpenOptions& options)
     : input_(std::move(input)),
       demuxer_(open_demuxer(input_, options)),
-      decoder_(open_decoder(input_, demuxer_, options, memory_)),
-      decoder_errors_(&memory_),
+      decoder_(open_decoder(input_, demuxer_, options)),
+      decoder_errors_(decoder_.get()),
       packet_(av_packet_alloc()) {
   if (!packet_) throw runtime_failure(input_.name, "out of memory");
   demuxer_.listener->clear();

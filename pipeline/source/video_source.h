@@ -39,7 +39,6 @@ class VideoSource final : public Source {
 
   Input input_;
   Demuxer demuxer_;
-  FrameMemory memory_;  // before what uses it
   ffmpeg::CodecPtr decoder_;
   ffmpeg::LogListener decoder_errors_;
   ffmpeg::PacketPtr packet_;

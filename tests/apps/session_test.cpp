@@ -84,6 +84,28 @@ TEST(Session, WaterThatChangesIsMadeAgainToTheLastBit) {
   EXPECT_LT(sample(frames.front(), 1, 160, 300), sample(frames.back(), 1, 160, 300) - 20);
 }
 
+// Poses that were predicted are in the session like any others.
+TEST(Session, OfLowestLatencyIsMadeAgainAsWell) {
+  NEEDS_PRELOAD();
+  const ShotFolder folder(640, 480);
+  folder.write("scene.toml", live_scene + "camera = \"camera.yml\"\n" + locked + cube + "colour = \"#ff0000\"\n");
+  const CliResult live =
+      run_shell(folder.path(), preloaded("FAKE_CAMERA_FPS=20") +
+                                   " \"$RINKAKU\" live scene.toml --headless --lowest-latency --seconds 2 --record "
+                                   "live.mkv --codec ffvhuff --session take");
+  ASSERT_EQ(live.status, 0) << live.err;
+  ASSERT_EQ(run_rinkaku(folder, "render take -o again.mkv --codec ffvhuff").status, 0);
+  const auto shown = frame_hashes(folder, "live.mkv"), made = frame_hashes(folder, "again.mkv");
+  ASSERT_GT(shown.size(), 5u);
+  auto at = made.begin();
+  for (const std::string& frame : shown) {
+    at = std::find(at, made.end(), frame);
+    ASSERT_NE(at, made.end());
+  }
+  // Before the tracker's first answer nothing is drawn, at the end the red cube is.
+  EXPECT_GT(sample(folder.frames("live.mkv").back(), 2, 160, 240), 170);
+}
+
 TEST(Session, RecordingIsPlayableWhenItIsKilled) {
   NEEDS_PRELOAD();
   for (const std::string file : {"out.mp4", "out.mkv"}) {

@@ -64,7 +64,7 @@ TEST(VideoSource, FrameIsTheDecodersOwnMemory) {
   EXPECT_EQ(test::samples(*kept), before);
 }
 
-// Pictures of a megabyte and more lie in memory of our own: every codec, size and layout as ffmpeg decodes it.
+// Every codec, odd sizes and layouts that differ, as ffmpeg decodes them.
 TEST(VideoSource, LargePicturesAreWhatFfmpegDecodes) {
   const test::TemporaryFolder folder;
   const std::pair<const char*, const char*> kinds[] = {{"mpeg4 -bf 2", "yuv420p"},
@@ -139,8 +139,8 @@ TEST(VideoSource, FrameThatTheDecoderLetGoIsWrittenWithoutACopy) {
   EXPECT_NE(first->planes[0].data, copy.planes[0].data);
 }
 
-// From a size at which memory is our own to one at which it is the decoder's, and back, while frames are held.
-TEST(VideoSource, MemoryFollowsTheSizeOfThePictures) {
+// Sizes that change within a stream while earlier frames are held.
+TEST(VideoSource, SizesMayChangeWhileFramesAreHeld) {
   const test::TemporaryFolder folder;
   std::string parts;
   for (const char* size : {"1280x960", "64x48", "1920x1080", "1280x960"}) {
