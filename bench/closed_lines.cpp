@@ -64,7 +64,7 @@ std::uint64_t walk(const fs::path& file, int views) {
   const mesh::Sphere ball = mesh::bounding_sphere(mesh.positions);
   const glm::dmat4 place =
       glm::translate(glm::scale(glm::dmat4(1), glm::dvec3(1 / ball.radius)), -glm::dvec3(ball.centre));
-  outline::LineWalker walker(mesh, topology, kLine_px - 0.5);
+  outline::LineWalker walker(topology, kLine_px - 0.5);
   std::uint64_t all_gaps = 0;
   for (const pipeline::LineMethod method : {pipeline::LineMethod::Uniform, pipeline::LineMethod::Curvature}) {
     pipeline::OutlineScene line;

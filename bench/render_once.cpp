@@ -1,5 +1,6 @@
 // Renders a scene as `rinkaku render` does, and nothing else: what is built twice for rinkaku-bench-leaving-out, once
-// with all stages and once without most (bench/without.cpp). Prints what was made of OpenGL: "PROGRAMS BUFFERS
+// with all stages and once without water, filmed things and fluff (bench/without.cpp). Prints what was
+// made of OpenGL: "PROGRAMS BUFFERS
 // TEXTURES".
 
 #include <cstdio>

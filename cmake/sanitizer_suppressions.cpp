@@ -28,6 +28,7 @@ extern "C" const char* __tsan_default_suppressions() {
          "called_from_lib:libtbb.so\n"
          "called_from_lib:libx264.so\n"
          "called_from_lib:swrast_dri.so\n"
+         "mutex:libxcb.so\n"
          "mutex:nptl_deallocate_tsd\n"  // OpenCV's memory of a thread, at that one's end
          "race:libopencv_aruco.so\n"
          "race:libopencv_calib3d.so\n"

@@ -215,14 +215,15 @@ void Run::make_water(const Scene& scene) {
   painted_ = scene.water;
 }
 
-// What the watcher wants drawn from this frame on; what can't be drawn is told to it, and stays as it was.
+// What the watcher wants drawn from this frame on; what can't be drawn is told to it, and stays as it was: objects and
+// water each.
 void Run::take_change(const Frame& frame) {
   if (!watcher_) return;
   std::optional<SceneChange> changed = watcher_->changed(frame);
   if (!changed) return;
   try {
     redraw(*drawing_, changed->scene, std::move(changed->objects));
-    if (water_ && changed->scene.water != painted_) make_water(changed->scene);
+    if (water_ && !paints_the_same(*changed->scene.water, *painted_)) make_water(changed->scene);
   } catch (const Error& error) {
     watcher_->refused(error.what());
   }

@@ -40,9 +40,9 @@ struct WalkedLine {
 /// triangles in a picture 512 pixels wide.
 class LineWalker {
  public:
-  /// Both must outlive the walker.
-  LineWalker(const mesh::Mesh& mesh, const mesh::Topology& topology, double across_px = 1.5)
-      : mesh_(mesh), topology_(topology), across_px_(across_px) {}
+  /// `topology`, the mesh's, must outlive the walker.
+  explicit LineWalker(const mesh::Topology& topology, double across_px = 1.5)
+      : topology_(topology), across_px_(across_px) {}
 
   WalkedLine walk(const passes::View& view, const glm::dmat4& world_from_mesh, const passes::Layer& layer);
 
@@ -56,7 +56,6 @@ class LineWalker {
   bool is_end(const glm::dvec2& pixel) const;
   double depth_at(int x, int y) const { return depths_[static_cast<std::size_t>(y) * width_px_ + x]; }
 
-  const mesh::Mesh& mesh_;
   const mesh::Topology& topology_;
   double across_px_;
   int width_px_ = 0, height_px_ = 0;

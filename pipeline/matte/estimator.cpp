@@ -36,7 +36,8 @@ void begin_matte(const Frame& frame, Matte& matte) {
   matte.frame_number = frame.number;
   matte.width_px = frame.format.width_px;
   matte.height_px = frame.format.height_px;
-  matte.rect = {};
+  matte.rect = matte.line_rect = {};  // the matte may have been another thing's, which had a line
+  matte.line.clear();
   matte.alpha.assign(static_cast<std::size_t>(matte.width_px) * matte.height_px, 0);
   matte.own_rgb.resize(matte.alpha.size() * 3);
 }

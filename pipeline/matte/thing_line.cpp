@@ -44,7 +44,7 @@ void ThingLine::find_shape(const Matte& matte) {
   part.convertTo(blurred_, CV_32F);
   cv::GaussianBlur(blurred_, blurred_, {}, blur_px, blur_px, cv::BORDER_REPLICATE | cv::BORDER_ISOLATED);
   cv::compare(blurred_, 127.5, shape_, cv::CMP_GT);
-  const int least_px = static_cast<int>(4 * options_.width_px * options_.width_px) + 9;
+  const int least_px = static_cast<int>(std::min(4 * options_.width_px * options_.width_px, 1600.0)) + 9;
   overwrite_small(shape_, 8, 4 * least_px, 0, shape_, labels_, stats_, centres_);
   cv::bitwise_not(shape_, outside_);
   overwrite_small(outside_, 4, least_px, 255, shape_, labels_, stats_, centres_);

@@ -233,4 +233,17 @@ WaterScene read_water(const Table& water) {
   return scene;
 }
 
+bool paints_the_same(WaterScene a, WaterScene b) {
+  for (WaterScene* water : {&a, &b}) {
+    water->where.clear();
+    for (WaterSurfaceScene& surface : water->surfaces) {
+      surface.where.clear();
+      for (WaterArrowScene& arrow : surface.arrows) arrow.where.clear(), arrow.in_file = 0;
+    }
+    for (WaterSprayScene& spray : water->sprays) spray.where.clear();
+    for (WaterBrushScene& brush : water->brushes) brush.where.clear();
+  }
+  return a == b;
+}
+
 }  // namespace rinkaku::pipeline

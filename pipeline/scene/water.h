@@ -102,6 +102,9 @@ struct WaterScene {
   bool operator==(const WaterScene&) const = default;
 };
 
+/// Whether they are equal but for where in the file they stand.
+bool paints_the_same(WaterScene a, WaterScene b);
+
 toml::Schema water_schema();
 
 /// Throws Error (Input).

@@ -12,6 +12,9 @@
 namespace rinkaku::track {
 namespace {
 
+// From frames that lie closer, a stalled camera's, noise would be taken for speed.
+constexpr double least_step_s = 0.005;
+
 class AheadTracker final : public Tracker {
  public:
   explicit AheadTracker(std::unique_ptr<Tracker> tracker) : tracker_(std::move(tracker)), thread_([this] { work(); }) {}
@@ -77,7 +80,7 @@ class AheadTracker final : public Tracker {
 
 void PosePredictor::add(double time_s, const TrackedPose& pose) {
   // A held pose stands still, and what comes after it starts from there.
-  const bool goes_on = last_ && time_s > last_->time_s && !pose.held && !last_->pose.held;
+  const bool goes_on = last_ && time_s - last_->time_s > least_step_s && !pose.held && !last_->pose.held;
   before_ = goes_on ? last_ : std::nullopt;
   last_ = {time_s, pose};
 }

@@ -10,7 +10,7 @@ namespace rinkaku::track {
 /// Where a pose that moves evenly will be: the last two poses known, continued.
 class PosePredictor {
  public:
-  /// A pose and the time at which it was filmed; times that don't rise begin anew.
+  /// A pose and the time at which it was filmed; times that hardly rise begin anew.
   void add(double time_s, const TrackedPose& pose);
   /// The pose at a later time; the last one known if that is all there is. Turns evenly about one axis and moves evenly
   /// in the camera's frame, for at most `longest_s`; then it stands still. Empty before the first.

@@ -32,7 +32,7 @@ TEST_F(LineWalk, GoesAlongTheWholeContour) {
   const mesh::Mesh ball = sphere(5);
   const mesh::Topology topology = mesh::topology(ball);
   const Layer layer = drawn(scene_of(lined(ball, turned(0), 3)), v);
-  const WalkedLine walked = LineWalker(ball, topology).walk(v, turned(0), layer);
+  const WalkedLine walked = LineWalker(topology).walk(v, turned(0), layer);
   const double radius_px = 300 / std::sqrt(16.0 - 1);
   // Steps are up to a pixel long, an edge at least one, and the contour zigzags along edges.
   EXPECT_GT(static_cast<double>(walked.places), 0.9 * 2 * 3.14159 * radius_px);
@@ -46,7 +46,7 @@ TEST_F(LineWalk, FindsWhatIsRubbedOut) {
   const mesh::Mesh ball = sphere(4);
   const mesh::Topology topology = mesh::topology(ball);
   Layer layer = drawn(scene_of(lined(ball, turned(0), 3)), v);
-  LineWalker walker(ball, topology);
+  LineWalker walker(topology);
   ASSERT_EQ(walker.walk(v, turned(0), layer).gaps(), 0u);
   // Four rows to the right of the ball.
   const int middle = static_cast<int>(v.camera.cx_px);
@@ -71,7 +71,7 @@ TEST_F(LineWalk, FindsNothingWhereNothingIsDrawn) {
   const mesh::Mesh ball = sphere(4);
   const mesh::Topology topology = mesh::topology(ball);
   const Layer layer = drawn(scene_of(toon(ball, turned(0))), v);
-  const WalkedLine walked = LineWalker(ball, topology).walk(v, turned(0), layer);
+  const WalkedLine walked = LineWalker(topology).walk(v, turned(0), layer);
   EXPECT_EQ(walked.place_gaps, walked.places);
   EXPECT_GT(walked.places, 100u);
 }
@@ -97,7 +97,7 @@ TEST_P(RealClosedMeshes, HaveNoGapInTheirLines) {
       const glm::dmat4 place =
           turned(i) * scaled(1 / around.radius) * glm::translate(glm::dmat4(1), -glm::dvec3(around.centre));
       const Layer layer = drawn(scene_of(lined(mesh, place, options)), v);
-      const WalkedLine walked = LineWalker(mesh, topology).walk(v, place, layer);
+      const WalkedLine walked = LineWalker(topology).walk(v, place, layer);
       EXPECT_EQ(walked.gaps(), 0u) << "view " << i << (follows ? ", following curvature" : "") << ", first at "
                                    << (walked.where.empty() ? glm::ivec2(0) : walked.where[0]).x << ", "
                                    << (walked.where.empty() ? glm::ivec2(0) : walked.where[0]).y;
@@ -125,7 +125,7 @@ TEST_F(LineWalk, CoarserBodiesHideNoLineBehindThem) {
       moved(0, 0, 4) * glm::dmat4(turn) * scaled(1 / ball.radius) * glm::translate(glm::dmat4(1), -ball.centre);
   const passes::View v = view(512, 512, 0.43 * 512 * std::sqrt(15.0));
   const Layer layer = drawn(scene_of(lined(mesh, place, 3)), v);
-  const WalkedLine walked = LineWalker(mesh, topology, 2.5).walk(v, place, layer);
+  const WalkedLine walked = LineWalker(topology, 2.5).walk(v, place, layer);
   EXPECT_EQ(walked.gaps(), 0u);
   EXPECT_GT(walked.places, 1000u);
 }

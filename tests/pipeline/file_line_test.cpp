@@ -78,6 +78,14 @@ TEST(FileLine, PartsOfThePictureAreItsCamerasPixels) {
   EXPECT_EQ(object.outline->weight.of_file[1], 1);  // in another unit than most of the surface
 }
 
+TEST(FileLine, AbsurdWidthsAreThoseThatAScenesLimitsAllow) {
+  mesh::Mesh mesh = figure(Unit::Metres, Unit::Metres);
+  for (mesh::Material& material : mesh.materials) {
+    if (material.line) material.line->width = 1e30f;
+  }
+  EXPECT_EQ(with_file_line(outlined(), mesh, 1, {}).outline->width_m, 1000);
+}
+
 TEST(FileLine, MeshesThatSayNothingChangeNothing) {
   mesh::Mesh mesh = figure(Unit::None, Unit::None);
   const pipeline::ObjectScene object = with_file_line(outlined(), mesh, 1, {});

@@ -60,12 +60,14 @@ double distance_to_line(glm::dvec2 p, glm::dvec2 a, glm::dvec2 b) {
 void ArrowEditor::look(const SceneFile& file, double frames_per_s, std::int64_t frame,
                        const std::optional<RigidTransform>& camera_from_world) {
   if (file.text() != text_ || frames_per_s != frames_per_s_) {
-    text_ = file.text();
-    frames_per_s_ = frames_per_s;
+    text_.clear();  // until all went well
     arrows_.reset();
+    shown_.clear();
     water_ = file.scene().water;
     grip_ = Grip::None;
     if (water_) arrows_.emplace(file.scene(), track::read_camera(file.scene().plate.camera), frames_per_s);
+    text_ = file.text();
+    frames_per_s_ = frames_per_s;
   }
   frame_ = frame;
   camera_from_world_ = camera_from_world;

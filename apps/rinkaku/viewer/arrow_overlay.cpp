@@ -55,6 +55,7 @@ std::optional<std::string> arrow_overlay(ArrowEditor& editor, const PictureForma
   if (ImGui::IsMouseClicked(ImGuiMouseButton_Left) && !io.WantCaptureMouse) {
     editor.press(at, static_cast<double>(reach * scale / map.across));
   } else if (ImGui::IsMouseReleased(ImGuiMouseButton_Left)) {
+    editor.drag(at);
     text = editor.release();
   } else if (ImGui::IsMouseDown(ImGuiMouseButton_Left)) {
     editor.drag(at);

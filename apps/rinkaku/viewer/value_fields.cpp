@@ -133,6 +133,12 @@ bool goes(const SceneFile& file, const Tunable& tunable, const toml::Path& table
   return !tunable.only_given || beside(tunable.key);
 }
 
+bool same(const toml::Path& a, const toml::Path& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const toml::Step& one, const toml::Step& other) {
+    return one.key == other.key && one.index == other.index;
+  });
+}
+
 }  // namespace
 
 void ValueFields::draw(const SceneFile& file, const Tunable& tunable, const toml::Path& above, const Setter& set) {
@@ -142,13 +148,19 @@ void ValueFields::draw(const SceneFile& file, const Tunable& tunable, const toml
   path.push_back({tunable.key});
   const toml::Value* value = file.find(path);
   const bool at_once = path.front().key == "object" || path.front().key == "light";
-  const Setter hold = [this](const toml::Path& where, const std::string& text) { held_ = Held{where, text}; };
+  bool changed = false;
+  const Setter hold = [this, &changed](const toml::Path& where, const std::string& text) {
+    held_ = Held{where, text};
+    changed = true;
+  };
   const Setter& change = at_once ? set : hold;
   ImGui::PushID(tunable.table);
   switch (tunable.kind) {
     case Tunable::Kind::Number:
     case Tunable::Kind::Whole:
       number_field(tunable, value, path, change);
+      // Dragged back to what it was.
+      if (held_ && same(held_->path, path) && !changed && ImGui::IsItemActive()) held_.reset();
       break;
     case Tunable::Kind::Flag:
       flag_field(tunable, value, path, change);

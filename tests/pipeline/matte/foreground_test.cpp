@@ -83,6 +83,16 @@ TEST(FileMatte, OtherSizesAreRefused) {
       "mattes: the mattes are 8x6 and the plate is 16x6; give mattes of the plate's size");
 }
 
+// Mattes go round, from thing to thing: one without a line must not keep another's.
+TEST(Mattes, BegunAnewHaveNoLine) {
+  Matte matte;
+  matte.line_rect = {1, 2, 3, 4};
+  matte.line.assign(12, 255);
+  begin_matte(test::plain_frame(16, 8, 50, 128, 128), matte);
+  EXPECT_TRUE(matte.line_rect.empty());
+  EXPECT_TRUE(matte.line.empty());
+}
+
 // A blue thing before orange, its edge two pixels wide: without knowing the background.
 TEST(OwnColours, AreThoseOfTheThingAlongItsSoftEdge) {
   const int width = 160, height = 90;
