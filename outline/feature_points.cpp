@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <numeric>
 
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
@@ -22,22 +21,10 @@ FeaturePoints::FeaturePoints(const mesh::Topology& rest, double k95, const Featu
     : options_(options),
       k95_(k95),
       stars_(face_stars(rest)),
-      first_(rest.points.size() + 1, 0),
-      neighbours_(rest.edges.size() * 2),
+      neighbours_(rest),
       kinds_(rest.points.size(), Kind::None),
       normals_(rest.points.size()),
-      normal_of_(rest.points.size(), 0) {
-  for (const mesh::Edge& edge : rest.edges) {
-    ++first_[edge.a + 1];
-    ++first_[edge.b + 1];
-  }
-  std::partial_sum(first_.begin(), first_.end(), first_.begin());
-  std::vector<std::uint32_t> next(first_.begin(), first_.end() - 1);
-  for (const mesh::Edge& edge : rest.edges) {
-    neighbours_[next[edge.a]++] = edge.b;
-    neighbours_[next[edge.b]++] = edge.a;
-  }
-}
+      normal_of_(rest.points.size(), 0) {}
 
 std::span<const FeaturePoints::Kind> FeaturePoints::find(std::span<const glm::vec3> points,
                                                          std::span<const std::uint32_t> wanted) {
@@ -65,8 +52,7 @@ FeaturePoints::Kind FeaturePoints::kind_of(std::span<const glm::vec3> points, st
   const glm::vec3 normal = normal_at(points, p);
   if (normal == glm::vec3(0)) return Kind::None;
   int concave = 0, convex = 0;
-  for (std::uint32_t i = first_[p]; i < first_[p + 1]; ++i) {
-    const std::uint32_t q = neighbours_[i];
+  for (const std::uint32_t q : neighbours_.at(p)) {
     const glm::vec3 other = normal_at(points, q);
     if (other == glm::vec3(0)) continue;
     const double sum = angle_sum(points[p], normal, points[q], other);

@@ -8,6 +8,7 @@
 
 #include "mesh/topology.h"
 #include "outline/face_stars.h"
+#include "outline/point_neighbours.h"
 
 namespace rinkaku::outline {
 
@@ -48,7 +49,7 @@ class FeaturePoints {
   FeaturePointOptions options_;
   double k95_;
   FaceStars stars_;
-  std::vector<std::uint32_t> first_, neighbours_;
+  PointNeighbours neighbours_;
   std::vector<Kind> kinds_;
   std::vector<glm::vec3> normals_;
   std::vector<std::uint32_t> normal_of_;  // per point: the call that found its normal

@@ -7,23 +7,12 @@ namespace rinkaku::outline {
 
 RingSmoothing::RingSmoothing(const mesh::Topology& topology, int times)
     : times_(times),
-      first_(topology.points.size() + 1, 0),
-      neighbours_(topology.edges.size() * 2),
+      neighbours_(topology),
       all_(topology.points.size()),
       seen_at_(topology.points.size(), 0),
       smoothed_(topology.points.size()) {
   std::iota(all_.begin(), all_.end(), 0u);
   rings_.reserve(all_.size());
-  for (const mesh::Edge& edge : topology.edges) {
-    ++first_[edge.a + 1];
-    ++first_[edge.b + 1];
-  }
-  std::partial_sum(first_.begin(), first_.end(), first_.begin());
-  std::vector<std::uint32_t> next(first_.begin(), first_.end() - 1);
-  for (const mesh::Edge& edge : topology.edges) {
-    neighbours_[next[edge.a]++] = edge.b;
-    neighbours_[next[edge.b]++] = edge.a;
-  }
 }
 
 std::span<const std::uint32_t> RingSmoothing::everywhere() {
@@ -48,7 +37,7 @@ std::span<const std::uint32_t> RingSmoothing::around(std::span<const std::uint32
     if (rings_.size() >= most) return everywhere();
     const std::size_t end = rings_.size();
     for (; done < end; ++done) {
-      for (const std::uint32_t q : neighbours(rings_[done])) add(q);
+      for (const std::uint32_t q : neighbours_.at(rings_[done])) add(q);
     }
     ring_ends_.push_back(static_cast<std::uint32_t>(rings_.size()));
   }
@@ -66,7 +55,7 @@ void RingSmoothing::smooth(std::span<float> values) {
 
 void RingSmoothing::step(std::span<const std::uint32_t> of, std::span<float> values) {
   for (const std::uint32_t p : of) {
-    const std::span<const std::uint32_t> around = neighbours(p);
+    const std::span<const std::uint32_t> around = neighbours_.at(p);
     float sum = 0;
     for (const std::uint32_t q : around) sum += values[q];
     smoothed_[p] = around.empty() ? values[p] : (values[p] + sum / static_cast<float>(around.size())) / 2;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "mesh/topology.h"
+#include "outline/point_neighbours.h"
 
 namespace rinkaku::outline {
 
@@ -25,15 +26,11 @@ class RingSmoothing {
   /// for.
   void smooth(std::span<float> values);
 
-  std::span<const std::uint32_t> neighbours(std::size_t point) const {
-    return std::span(neighbours_).subspan(first_[point], first_[point + 1] - first_[point]);
-  }
-
  private:
   void step(std::span<const std::uint32_t> of, std::span<float> values);
 
   int times_ = 0;
-  std::vector<std::uint32_t> first_, neighbours_;  // per point its run, and the end
+  PointNeighbours neighbours_;
   std::vector<std::uint32_t> all_;
   std::vector<std::uint32_t> rings_, ring_ends_;  // the wanted points, then their neighbours, ...
   bool whole_ = true;

@@ -31,9 +31,6 @@ MaterialLine most_common(const mesh::Mesh& mesh) {
   return found;
 }
 
-// What a scene file may ask for, a mesh's file may not exceed.
-constexpr double most_px = 100, most_m = 1000;
-
 void take_width(OutlineScene& outline, const mesh::Mesh& mesh, Unit unit, double unit_m,
                 const std::filesystem::path& camera) {
   float widest = 0;
@@ -41,9 +38,9 @@ void take_width(OutlineScene& outline, const mesh::Mesh& mesh, Unit unit, double
     if (has_line(material) && material.line->unit == unit) widest = std::max(widest, material.line->width);
   }
   if (unit == Unit::Metres) {
-    outline.width_m = std::min(widest * unit_m, most_m);
+    outline.width_m = std::min(widest * unit_m, most_line_m);
   } else {
-    outline.width_px = std::min(static_cast<double>(widest) * track::read_camera(camera).height_px, most_px);
+    outline.width_px = std::min(static_cast<double>(widest) * track::read_camera(camera).height_px, most_line_px);
   }
   if (!can_weigh(outline.method)) return;
   bool even = true;

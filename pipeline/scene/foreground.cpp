@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <string_view>
 
+#include "pipeline/scene/outline.h"
 #include "pipeline/scene/values.h"
 
 namespace rinkaku::pipeline {
@@ -98,7 +99,7 @@ PixelRect read_within(const Table& foreground) {
 std::optional<matte::ThingLineOptions> read_line(const Table& foreground) {
   matte::ThingLineOptions options;
   if (const auto outline = foreground.table_unless_flag("outline")) {
-    options.width_px = outline->number("width_px", Limits::above(0, 100)).value_or(options.width_px);
+    options.width_px = outline->number("width_px", Limits::above(0, most_line_px)).value_or(options.width_px);
     options.colour = read_colour(*outline, "colour").value_or(options.colour);
   } else if (!foreground.has("outline") || !*foreground.flag("outline")) {
     return std::nullopt;

@@ -30,15 +30,16 @@ void read_method(const Table& outline, OutlineScene& scene) {
 void read_width(const Table& outline, OutlineScene& scene) {
   outline.exclude("width_px", "width_m");
   scene.own_width = outline.has("width_px") || outline.has("width_m");
-  scene.width_px = outline.number("width_px", Limits::above(0, 100)).value_or(scene.width_px);
-  scene.width_m = outline.number("width_m", Limits::above(0, 1000));
+  scene.width_px = outline.number("width_px", Limits::above(0, most_line_px)).value_or(scene.width_px);
+  scene.width_m = outline.number("width_m", Limits::above(0, most_line_m));
   for (const std::string_view key : {"min_px", "max_px"}) {
     if (outline.has(key) && !scene.width_m) {
       throw outline.error_at(key, "goes with 'width_m'", "leave it out, or give 'width_m' in place of 'width_px'");
     }
   }
-  scene.min_px = outline.number("min_px", {0, 100}).value_or(scene.min_px);
-  scene.max_px = outline.number("max_px", Limits::above(0, 100)).value_or(std::max(scene.max_px, scene.min_px));
+  scene.min_px = outline.number("min_px", {0, most_line_px}).value_or(scene.min_px);
+  scene.max_px =
+      outline.number("max_px", Limits::above(0, most_line_px)).value_or(std::max(scene.max_px, scene.min_px));
   if (scene.max_px < scene.min_px) throw outline.error_at("max_px", "must not be below 'min_px'");
 }
 

@@ -11,6 +11,9 @@
 
 namespace rinkaku::pipeline {
 
+/// No line is wider, whether a scene or a mesh's file asks for it.
+inline constexpr double most_line_px = 100, most_line_m = 1000;
+
 /// outline of [[object]]: its line.
 struct OutlineScene {
   /// What the scene leaves open, the mesh's file may set: see with_file_line().

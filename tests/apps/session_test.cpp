@@ -20,6 +20,15 @@ std::vector<std::string> frame_hashes(const ShotFolder& folder, const std::strin
   return hashes;
 }
 
+// A recording may have lost frames that its session has, never the other way round, and keeps their order.
+void expect_all_in_order(const std::vector<std::string>& shown, const std::vector<std::string>& made) {
+  auto at = made.begin();
+  for (const std::string& frame : shown) {
+    at = std::find(at, made.end(), frame);
+    ASSERT_NE(at, made.end());
+  }
+}
+
 // The scene changes while it is filmed: the cube's colour, from its file.
 TEST(Session, RenderMakesTheSameFramesAgainToTheLastBit) {
   NEEDS_PRELOAD();
@@ -39,12 +48,7 @@ TEST(Session, RenderMakesTheSameFramesAgainToTheLastBit) {
   const auto shown = frame_hashes(folder, "live.mkv"), made = frame_hashes(folder, "again.mkv");
   ASSERT_GT(shown.size(), 10u);
   EXPECT_EQ(json_of(again.out)["frames"], made.size());
-  // The recording may have lost frames that the session has, never the other way round, and keeps their order.
-  auto at = made.begin();
-  for (const std::string& frame : shown) {
-    at = std::find(at, made.end(), frame);
-    ASSERT_NE(at, made.end());
-  }
+  ASSERT_NO_FATAL_FAILURE(expect_all_in_order(shown, made));
   // Both colours are there, so the change is.
   const auto frames = folder.frames("again.mkv");
   EXPECT_NE(sample(frames.front(), 2, 160, 240), sample(frames.back(), 2, 160, 240));
@@ -73,11 +77,7 @@ TEST(Session, WaterThatChangesIsMadeAgainToTheLastBit) {
   ASSERT_EQ(again.status, 0) << again.err;
   const auto shown = frame_hashes(folder, "live.mkv"), made = frame_hashes(folder, "again.mkv");
   ASSERT_GT(shown.size(), 10u);
-  auto at = made.begin();
-  for (const std::string& frame : shown) {
-    at = std::find(at, made.end(), frame);
-    ASSERT_NE(at, made.end());
-  }
+  ASSERT_NO_FATAL_FAILURE(expect_all_in_order(shown, made));
   // Red water first, then blue: V falls and U rises in the middle of it.
   const auto frames = folder.frames("again.mkv");
   EXPECT_GT(sample(frames.front(), 2, 160, 300), sample(frames.back(), 2, 160, 300) + 20);
@@ -97,11 +97,7 @@ TEST(Session, OfLowestLatencyIsMadeAgainAsWell) {
   ASSERT_EQ(run_rinkaku(folder, "render take -o again.mkv --codec ffvhuff").status, 0);
   const auto shown = frame_hashes(folder, "live.mkv"), made = frame_hashes(folder, "again.mkv");
   ASSERT_GT(shown.size(), 5u);
-  auto at = made.begin();
-  for (const std::string& frame : shown) {
-    at = std::find(at, made.end(), frame);
-    ASSERT_NE(at, made.end());
-  }
+  ASSERT_NO_FATAL_FAILURE(expect_all_in_order(shown, made));
   // Before the tracker's first answer nothing is drawn, at the end the red cube is.
   EXPECT_GT(sample(folder.frames("live.mkv").back(), 2, 160, 240), 170);
 }
