@@ -282,7 +282,7 @@ void Run::merge(Work& work) {
   if (fades_early()) {
     for (passes::Layer& layer : work.slices) passes::fade(layer, cg_opacity(work));
   }
-  if (world_) passes::put_behind(world_->next(), work.slices.back(), scratch_);
+  if (world_) passes::put_behind(world_->at(time_s(work.frame), work.frame.number), work.slices.back(), scratch_);
   passes::merge({work.slices, work.mattes, runs("composite")}, work.layer);
 }
 

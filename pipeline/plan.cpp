@@ -106,7 +106,7 @@ Verdict shading_scale(const Facts& f) {
   if (coarse.empty()) return {false, plain.empty() ? "no object has a shading_scale above 1" : no_gain};
   return {true, coarse +
                     " is coloured at a lower resolution; edges, lines and fluff are not. Saves work only where "
-                    "colouring a pixel costs more than nine lookups" +
+                    "colouring a pixel costs more than ten lookups" +
                     (plain.empty() ? "" : "; " + no_gain)};
 }
 

@@ -24,7 +24,7 @@ struct DepthLayer {
 /// What a layer can be taken apart into.
 struct LayerParts {
   Layer lines;       ///< its lines alone, where nothing covers them
-  DepthLayer depth;  ///< of surfaces and of holdouts; lines, fluff and soft edges have none
+  DepthLayer depth;  ///< of surfaces, holdouts too; fluff, soft edges and lines along the contour have none
 };
 
 }  // namespace rinkaku::passes

@@ -186,7 +186,7 @@ TEST(Plan, ColoursAreDrawnAtALowerResolutionWhereThatIsAskedForAndThereAreSevera
   EXPECT_TRUE(plan_of(scene).runs("shading-scale"));
   EXPECT_EQ(stage(plan_of(scene), "shading-scale").why,
             "cow is coloured at a lower resolution; edges, lines and fluff are not. Saves work only where colouring a "
-            "pixel costs more than nine lookups");
+            "pixel costs more than ten lookups");
   ObjectScene flat;
   flat.name = "sign";
   flat.shading_scale = 3;
