@@ -25,9 +25,10 @@ namespace rinkaku::pipeline {
 struct Work {
   Frame frame;
   std::optional<TrackedPose> pose;
-  std::vector<Matte> mattes;          ///< of filmed things, nearest first
-  std::vector<passes::Layer> slices;  ///< CG before, between and behind the mattes; one more than they are
-  passes::Layer layer;                ///< what is to be laid over the plate
+  std::vector<Matte> mattes;              ///< of filmed things, nearest first
+  std::vector<passes::Layer> slices;      ///< CG before, between and behind the mattes; one more than they are
+  std::vector<passes::LayerParts> parts;  ///< of what is drawn(), if --layers asks for them
+  passes::Layer layer;                    ///< what is to be laid over the plate
   /// How long each stage took over this very frame, in the order of Line::stage_names(); decoding is the first.
   static constexpr std::size_t most_stages = 24;
   std::array<float, most_stages> stage_ms{};

@@ -58,6 +58,11 @@ std::span<passes::Layer> empty_layers(Work& work) {
   return work.drawn();
 }
 
+void empty_parts(Work& work) {
+  work.parts.resize(work.drawn().size());
+  for (passes::LayerParts& parts : work.parts) parts.lines.rect = parts.depth.rect = {};
+}
+
 // Tells the watcher that the run begins, and that it ended, whichever way that is.
 class Watched {
  public:
@@ -129,6 +134,7 @@ class Run {
   std::optional<WaterScene> painted_;  // what that was made of
   std::vector<double> cuts_m_;
   passes::Layer scratch_;  // of the compositing thread
+  passes::DepthLayer depth_scratch_;
   std::optional<LayerFiles> layers_;
   std::optional<World> world_;
   bool lines_around_things_ = false;
@@ -231,11 +237,13 @@ void Run::take_change(const Frame& frame) {
 
 void Run::draw(Work& work) {
   const std::span<passes::Layer> layers = empty_layers(work);
+  if (runs("layers")) empty_parts(work);
   if (!work.pose || work.pose->opacity <= 0) return;
   ++report_.posed_frames;
   cuts_m_.clear();
   for (const Matte& matte : work.mattes) cuts_m_.push_back(cut_m(matte));
-  drawing_->renderer->draw({*prepared_.camera, work.pose->camera_from_world, time_s(work.frame)}, cuts_m_, layers);
+  drawing_->renderer->draw({*prepared_.camera, work.pose->camera_from_world, time_s(work.frame)}, cuts_m_, layers,
+                           work.parts);
 }
 
 void Run::add_lens() {
@@ -244,6 +252,12 @@ void Run::add_lens() {
     for (passes::Layer& layer : work.drawn()) {
       lens_->distort(layer, scratch_);
       std::swap(layer, scratch_);
+    }
+    for (passes::LayerParts& parts : work.parts) {
+      lens_->distort(parts.lines, scratch_);
+      std::swap(parts.lines, scratch_);
+      lens_->distort(parts.depth, depth_scratch_);
+      std::swap(parts.depth, depth_scratch_);
     }
   });
 }
@@ -268,7 +282,7 @@ void Run::merge(Work& work) {
   if (fades_early()) {
     for (passes::Layer& layer : work.slices) passes::fade(layer, cg_opacity(work));
   }
-  if (world_) passes::put_behind(world_->next(), work.slices.back(), scratch_);
+  if (world_) passes::put_behind(world_->at(time_s(work.frame), work.frame.number), work.slices.back(), scratch_);
   passes::merge({work.slices, work.mattes, runs("composite")}, work.layer);
 }
 

@@ -89,6 +89,27 @@ Verdict flat(const Facts& f) {
   return {true, objects(n) + " drawn flat (toon = false)"};
 }
 
+std::string names_of(const Facts& f, bool (*wanted)(const ObjectScene&)) {
+  std::string names;
+  for (const ObjectScene& object : f.scene.objects) {
+    if (wanted(object)) names += (names.empty() ? "" : ", ") + object.name;
+  }
+  return names;
+}
+
+Verdict shading_scale(const Facts& f) {
+  if (!f.draws()) return {false, no_object};
+  const std::string coarse = names_of(f, has_coarse_colour);
+  const std::string plain =
+      names_of(f, [](const ObjectScene& o) { return o.shading_scale > 1 && !has_coarse_colour(o); });
+  const std::string no_gain = plain.empty() ? "" : "nothing is gained for " + plain + ", which has one colour";
+  if (coarse.empty()) return {false, plain.empty() ? "no object has a shading_scale above 1" : no_gain};
+  return {true, coarse +
+                    " is coloured at a lower resolution; edges, lines and fluff are not. Saves work only where "
+                    "colouring a pixel costs more than ten lookups" +
+                    (plain.empty() ? "" : "; " + no_gain)};
+}
+
 Verdict regions(const Facts& f) {
   if (!f.draws()) return {false, no_object};
   const std::size_t faces = f.count([](const ObjectScene& o) { return region_use(o) == RegionUse::Faces; });
@@ -248,6 +269,7 @@ const std::vector<Kind>& kinds() {
       {"animate", animate, {"decode", "import"}},
       {"toon", toon, {"import"}},
       {"flat", flat, {"import"}},
+      {"shading-scale", shading_scale, {"toon", "flat"}},
       {"holdout", holdout, {"import"}},
       {"regions", regions, {"import"}},
       {"curvature", curvature, {"import", "animate"}},
@@ -258,8 +280,8 @@ const std::vector<Kind>& kinds() {
       {"water", water, {"decode", "track", "smooth"}},
       {"draw",
        draw,
-       {"decode", "track", "smooth", "matte", "animate", "toon", "flat", "holdout", "regions", "outline", "fluffy",
-        "water"}},
+       {"decode", "track", "smooth", "matte", "animate", "toon", "flat", "shading-scale", "holdout", "regions",
+        "outline", "fluffy", "water"}},
       {"lens", lens, {"draw"}},
       {"background", background, {}},
       {"merge", merge, {"matte", "draw", "lens", "background"}},

@@ -183,8 +183,8 @@ Output open_output(const Prepared& prepared, const RenderOptions& options, const
   }
   if (output.path != "-") refuse_own_input(output.path, prepared.scene.plate.input);
   if (prepared.plan.runs("layers")) {
-    for (const std::string& name : layer_names(prepared.scene)) {
-      if (!sink::share_a_file(output.path, layer_pattern(options, name))) continue;
+    for (const LayerFile& layer : layer_files(prepared.scene)) {
+      if (!sink::share_a_file(output.path, layer_pattern(options, layer.name))) continue;
       throw input_error(output.path, "the layers are to be written under the same names",
                         "choose another output, or another folder for --layers");
     }

@@ -32,6 +32,7 @@ class HullPass : public passes::ObjectPass {
   HullPass(passes::DrawnObject& object, const HullOptions& options);
 
   const char* name() const override { return "outline"; }
+  bool draws_lines() const override { return true; }
   double reach_px(const passes::View& view) const override;
   void draw_surface(const passes::DrawCall&) override {}
   void draw_edges(const passes::DrawCall& call) override;

@@ -26,6 +26,7 @@ class FacingPass : public passes::ObjectPass {
   FacingPass(passes::DrawnObject& object, const FacingOptions& options);
 
   const char* name() const override { return "facing"; }
+  bool draws_lines() const override { return true; }
   double reach_px(const passes::View&) const override { return 1; }
   void draw_surface(const passes::DrawCall& call) override;
   void draw_edges(const passes::DrawCall& call) override;

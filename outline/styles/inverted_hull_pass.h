@@ -21,6 +21,7 @@ class InvertedHullPass : public passes::ObjectPass {
   InvertedHullPass(passes::DrawnObject& object, const mesh::Mesh& mesh, const LineLook& look);
 
   const char* name() const override { return "inverted hull"; }
+  bool draws_lines() const override { return true; }
   double reach_px(const passes::View& view) const override;
   void draw_surface(const passes::DrawCall& call) override;
   void draw_edges(const passes::DrawCall& call) override;

@@ -39,6 +39,7 @@ class PictureLinesPass : public passes::ObjectPass {
   PictureLinesPass(passes::DrawnObject& object, passes::ObjectPass& body, const PictureLinesOptions& options);
 
   const char* name() const override { return "picture lines"; }
+  bool draws_lines() const override { return true; }
   double reach_px(const passes::View& view) const override;
   void draw_surface(const passes::DrawCall&) override {}
   void draw_edges(const passes::DrawCall& call) override;

@@ -66,6 +66,7 @@ class StrokePass : public passes::ObjectPass {
              const StrokeOptions& options);
 
   const char* name() const override { return "strokes"; }
+  bool draws_lines() const override { return true; }
   double reach_px(const passes::View& view) const override;
   void draw_surface(const passes::DrawCall&) override {}
   void draw_edges(const passes::DrawCall& call) override;

@@ -53,6 +53,16 @@ inline PixelFormat grey8() {
   return pixels;
 }
 
+/// 16-bit grey in one plane, high bytes first as PNG has them.
+inline PixelFormat grey16be() {
+  PixelFormat pixels = grey8();
+  pixels.name = "gray16be";
+  pixels.big_endian = true;
+  pixels.component[0].step_bytes = 2;
+  pixels.component[0].depth_bits = 16;
+  return pixels;
+}
+
 /// Colour description: code points of ITU-T H.273 (the numbers that containers and FFmpeg use), 2 is unspecified.
 struct ColourTags {
   enum class Range { Unspecified, Limited, Full };

@@ -60,4 +60,10 @@ void Target::read(int width_px, int height_px, std::uint8_t* pixels) const {
   glReadPixels(0, 0, width_px, height_px, kind_ == Kind::Picture ? GL_RGBA : GL_RED, GL_UNSIGNED_BYTE, pixels);
 }
 
+void Target::read_depth(int width_px, int height_px, float* depth) const {
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer_.name());
+  glPixelStorei(GL_PACK_ALIGNMENT, 4);
+  glReadPixels(0, 0, width_px, height_px, GL_DEPTH_COMPONENT, GL_FLOAT, depth);
+}
+
 }  // namespace rinkaku::gl

@@ -23,6 +23,8 @@ class Target {
   /// Copies the viewport's pixels to `pixels`: width * height times 4 bytes (Picture) or 1 (Matte), the row of window
   /// y = 0 first. Waits for drawing to end.
   void read(int width_px, int height_px, std::uint8_t* pixels) const;
+  /// The same for depth, of a Picture: one float a pixel, as the depth function saw it.
+  void read_depth(int width_px, int height_px, float* depth) const;
 
  private:
   Kind kind_;

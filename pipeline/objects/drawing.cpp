@@ -40,6 +40,7 @@ passes::ToonOptions toon_options(const ObjectScene& object, const LightScene& li
   options.bands = object.toon ? object.toon->bands : 0;
   if (object.toon) options.shade_colour = colour(object.toon->shade_colour);
   options.light = glm::vec3(light.direction);
+  if (has_coarse_colour(object)) options.shading_scale = object.shading_scale;
   return options;
 }
 

@@ -17,12 +17,15 @@ PixelRect grown(const PixelRect& rect, int by_px) {
 // Clamped, what lies before the near plane isn't cut off but hides everything.
 void clamp_depth(bool on) { (on ? glEnable : glDisable)(GL_DEPTH_CLAMP); }
 
+// Premultiplied, over what is there; without colour of its own it only covers that.
+void blend_over(bool coloured) { glBlendFunc(coloured ? GL_ONE : GL_ZERO, GL_ONE_MINUS_SRC_ALPHA); }
+
 }  // namespace
 
 LayerRenderer::LayerRenderer(std::vector<StyledObject> objects, const PixelRect& picture)
     : objects_(std::move(objects)), picture_(picture) {}
 
-DrawCall LayerRenderer::call_for(const View& view, const StyledObject& styled, const PixelRect& rect) const {
+DrawCall LayerRenderer::call_for(const View& view, const StyledObject& styled, const PixelRect& rect, Ink ink) const {
   const glm::dmat4& world_from_object = styled.object->shape().world_from_object();
   const glm::dmat4 camera_from_object = to_matrix(view.camera_from_world) * world_from_object;
   return {view,
@@ -30,7 +33,8 @@ DrawCall LayerRenderer::call_for(const View& view, const StyledObject& styled, c
           rect,
           glm::vec2(rect.width_px, rect.height_px),
           static_cast<float>(view.camera.fx_px * styled.object->shape().push_m()),
-          static_cast<float>(view.nearest_m)};
+          static_cast<float>(view.nearest_m),
+          ink == Ink::Lines};
 }
 
 // Finds what is in the picture, nearest first.
@@ -69,31 +73,40 @@ void LayerRenderer::begin(const PixelRect& rect, const Slice& slice) {
   glDisable(GL_BLEND);
 }
 
-void LayerRenderer::draw_surfaces(const View& view, const PixelRect& rect, const Slice& slice) {
+void LayerRenderer::draw_surfaces(const View& view, const PixelRect& rect, const Slice& slice, Ink ink) {
   for (Visible& v : visible_) {
     if (!slice.holds(v)) continue;
     if (!v.uploaded) v.styled->object->upload();
     v.uploaded = true;
-    const DrawCall call = call_for(view, *v.styled, rect);
+    const DrawCall call = call_for(view, *v.styled, rect, ink);
     clamp_depth(!v.leaves_colour);
-    for (auto& pass : v.styled->passes) pass->draw_surface(call);
+    for (auto& pass : v.styled->passes) {
+      const bool hides = ink == Ink::Lines && !pass->draws_lines();
+      if (hides) glEnable(GL_BLEND), glBlendFunc(GL_ZERO, GL_ZERO);
+      pass->draw_surface(call);
+      if (hides) glDisable(GL_BLEND);
+    }
   }
   clamp_depth(false);
   glDisable(GL_CULL_FACE);
   glEnable(GL_BLEND);
-  glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+  blend_over(ink == Ink::All);
 }
 
-void LayerRenderer::draw_edges(const View& view, const PixelRect& rect, const Slice& slice) {
+void LayerRenderer::draw_edges(const View& view, const PixelRect& rect, const Slice& slice, Ink ink) {
   glDepthMask(GL_FALSE);
   for (auto v = visible_.rbegin(); v != visible_.rend(); ++v) {
     if (!slice.holds(*v)) continue;
-    const DrawCall call = call_for(view, *v->styled, rect);
+    const DrawCall call = call_for(view, *v->styled, rect, ink);
     clamp_depth(!v->leaves_colour);
     // The last pass (a line) lies behind the first (the body).
-    for (auto pass = v->styled->passes.rbegin(); pass != v->styled->passes.rend(); ++pass) (*pass)->draw_edges(call);
+    for (auto pass = v->styled->passes.rbegin(); pass != v->styled->passes.rend(); ++pass) {
+      blend_over(ink == Ink::All || (*pass)->draws_lines());
+      (*pass)->draw_edges(call);
+    }
   }
   clamp_depth(false);
+  blend_over(ink == Ink::All);
 }
 
 void LayerRenderer::read(Layer& layer) {
@@ -101,8 +114,18 @@ void LayerRenderer::read(Layer& layer) {
   target_.read(layer.rect.width_px, layer.rect.height_px, layer.rgba.data());
 }
 
-bool LayerRenderer::draw(const View& view, std::span<const double> cuts_m, std::span<Layer> layers) {
+void LayerRenderer::read_depth(const Slice& slice, const PixelRect& rect, DepthLayer& depth) {
+  depth.rect = rect;
+  depth.depth_m.resize(static_cast<std::size_t>(rect.width_px) * rect.height_px);
+  target_.read_depth(rect.width_px, rect.height_px, depth.depth_m.data());
+  const auto near = static_cast<float>(slice.near_m), cleared = static_cast<float>(slice.near_m / slice.far_m);
+  for (float& value : depth.depth_m) value = value > cleared ? near / value : 0;
+}
+
+bool LayerRenderer::draw(const View& view, std::span<const double> cuts_m, std::span<Layer> layers,
+                         std::span<LayerParts> parts) {
   assert(layers.size() == cuts_m.size() + 1);
+  assert(parts.empty() || parts.size() == layers.size());
   PixelRect scene_rect;
   for (auto& pass : scene_passes_) scene_rect = united(scene_rect, pass->look(view, picture_));
   look_at_objects(view, picture_);
@@ -110,24 +133,33 @@ bool LayerRenderer::draw(const View& view, std::span<const double> cuts_m, std::
   for (std::size_t i = 0; i < layers.size(); ++i) {
     const Slice slice{i == 0 ? near_m : std::max(near_m, cuts_m[i - 1]),
                       i < cuts_m.size() ? cuts_m[i] : std::numeric_limits<double>::infinity()};
-    drawn = draw_slice(view, slice, scene_rect, layers[i]) || drawn;
+    drawn = draw_slice(view, slice, scene_rect, layers[i], parts.empty() ? nullptr : &parts[i]) || drawn;
   }
   return drawn;
 }
 
-bool LayerRenderer::draw_slice(const View& whole_view, const Slice& slice, const PixelRect& scene_rect, Layer& layer) {
+bool LayerRenderer::draw_slice(const View& whole_view, const Slice& slice, const PixelRect& scene_rect, Layer& layer,
+                               LayerParts* parts) {
   layer.rect = united(scene_rect, covered(slice));
+  if (parts != nullptr) parts->lines.rect = parts->depth.rect = layer.rect;
   if (layer.rect.empty()) return false;
   View view = whole_view;
   view.nearest_m = slice.near_m;
   for (auto& pass : scene_passes_) pass->draw_aside(view, layer.rect);
+  draw_all(view, slice, Ink::All, layer);
+  if (parts == nullptr) return true;
+  read_depth(slice, layer.rect, parts->depth);
+  draw_all(view, slice, Ink::Lines, parts->lines);
+  return true;
+}
+
+void LayerRenderer::draw_all(const View& view, const Slice& slice, Ink ink, Layer& layer) {
   begin(layer.rect, slice);
-  draw_surfaces(view, layer.rect, slice);
+  draw_surfaces(view, layer.rect, slice, ink);
   for (auto& pass : scene_passes_) pass->draw(view, layer.rect);
-  draw_edges(view, layer.rect, slice);
+  draw_edges(view, layer.rect, slice, ink);
   for (auto& pass : scene_passes_) pass->draw_over(view, layer.rect);
   read(layer);
-  return true;
 }
 
 bool LayerRenderer::draw_objects(const View& view, const PixelRect& picture, Layer& layer) {
@@ -136,8 +168,8 @@ bool LayerRenderer::draw_objects(const View& view, const PixelRect& picture, Lay
   layer.rect = covered(all);
   if (layer.rect.empty()) return false;
   begin(layer.rect, all);
-  draw_surfaces(view, layer.rect, all);
-  draw_edges(view, layer.rect, all);
+  draw_surfaces(view, layer.rect, all, Ink::All);
+  draw_edges(view, layer.rect, all, Ink::All);
   read(layer);
   return true;
 }

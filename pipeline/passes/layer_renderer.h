@@ -41,7 +41,9 @@ class LayerRenderer {
   /// to cuts_m[1], and so on, one layer more than cuts. Cuts are in metres along the camera's axis, not falling. A
   /// surface that passes through a cut is in both layers, each having the part on its side. An object costs once for
   /// each slice that it reaches into.
-  bool draw(const View& view, std::span<const double> cuts_m, std::span<Layer> layers);
+  /// Each layer is taken apart into `parts` of the same number, if there are any, which draws it once more.
+  bool draw(const View& view, std::span<const double> cuts_m, std::span<Layer> layers,
+            std::span<LayerParts> parts = {});
   /// Draws the objects alone, into another picture: what a mirror shows.
   bool draw_objects(const View& view, const PixelRect& picture, Layer& layer);
 
@@ -64,12 +66,15 @@ class LayerRenderer {
   void look_at_objects(const View& view, const PixelRect& picture);
   /// The rectangle of all that leaves colour in the slice.
   PixelRect covered(const Slice& slice) const;
-  bool draw_slice(const View& view, const Slice& slice, const PixelRect& scene_rect, Layer& layer);
+  bool draw_slice(const View& view, const Slice& slice, const PixelRect& scene_rect, Layer& layer, LayerParts* parts);
+  enum class Ink { All, Lines };
+  void draw_all(const View& view, const Slice& slice, Ink ink, Layer& layer);
   void begin(const PixelRect& rect, const Slice& slice);
-  void draw_surfaces(const View& view, const PixelRect& rect, const Slice& slice);
-  void draw_edges(const View& view, const PixelRect& rect, const Slice& slice);
+  void draw_surfaces(const View& view, const PixelRect& rect, const Slice& slice, Ink ink);
+  void draw_edges(const View& view, const PixelRect& rect, const Slice& slice, Ink ink);
   void read(Layer& layer);
-  DrawCall call_for(const View& view, const StyledObject& styled, const PixelRect& rect) const;
+  void read_depth(const Slice& slice, const PixelRect& rect, DepthLayer& depth);
+  DrawCall call_for(const View& view, const StyledObject& styled, const PixelRect& rect, Ink ink) const;
 
   std::vector<StyledObject> objects_;
   PixelRect picture_;

@@ -16,6 +16,7 @@ struct DrawCall {
   glm::vec2 viewport_px;
   float focal_px = 0;  ///< pixels that an outline normal of length 1 takes at a distance of 1 m
   float near_m = static_cast<float>(passes::near_m);  ///< of clip_from_object: depth is this, divided by Z
+  bool lines_only = false;  ///< a picture of the lines is drawn: all else only covers them, by GL_ZERO for its colour
 };
 
 /// One way of drawing an object: its shading, its outline, ... An object has a list of them.
@@ -34,6 +35,8 @@ class ObjectPass {
   virtual double reach_px(const View& view) const = 0;
   /// False if it only takes away what others drew: then nothing is drawn where no other object is.
   virtual bool leaves_colour() const { return true; }
+  /// True if lines are what it draws, or a part of it: then it looks at DrawCall::lines_only itself.
+  virtual bool draws_lines() const { return false; }
   /// Draws what is opaque: blending off, depth written.
   virtual void draw_surface(const DrawCall& call) = 0;
   /// Draws the feathers: blending on (premultiplied), depth tested but not written, which must hold again afterwards.

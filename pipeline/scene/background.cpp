@@ -12,6 +12,7 @@ BackgroundScene read_background(const toml::Table& background) {
   if (from == "colour") {
     scene.colour = read_colour(background, from);
   } else if (from == "images") {
+    scene.is_sequence = true;
     scene.input = image_pattern(background, from, "%*?[", "world/%04d.png");
   } else {
     scene.input = existing_file(background, from).string();

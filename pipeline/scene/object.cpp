@@ -59,11 +59,15 @@ void refuse_for_animated(const Table& object, const ObjectScene& scene) {
 
 }  // namespace
 
+bool has_coarse_colour(const ObjectScene& object) {
+  return object.shading_scale > 1 && (object.toon || !object.colour);
+}
+
 toml::Schema object_schema() {
   toml::Schema schema = {
       {.path = "object",
        .keys = {"mesh", "name", "position_m", "rotation_deg", "height_m", "scale", "up", "anchor", "crease_deg",
-                "colour", "animation", "toon", "outline", "fluffy", "holdout", "regions"},
+                "colour", "animation", "toon", "outline", "fluffy", "holdout", "regions", "shading_scale"},
        .repeated = true}};
   // What an object is drawn with; a new pass adds its line here.
   for (const toml::Schema& pass : {animation_schema(), toon_schema(), outline_schema(), fluffy_schema()}) {
@@ -96,13 +100,14 @@ ObjectScene read_object(const Table& object) {
   scene.holdout = object.flag("holdout").value_or(false);
   refuse_for_animated(object, scene);
   if (scene.holdout) {
-    for (const std::string_view key : {"colour", "toon", "outline", "fluffy"}) {
+    for (const std::string_view key : {"colour", "toon", "outline", "fluffy", "shading_scale"}) {
       if (object.has(key))
         throw object.error_at(key, "has no meaning for a holdout, which is not drawn", "leave it out");
     }
     return scene;
   }
   scene.toon = read_toon(object);
+  scene.shading_scale = static_cast<int>(object.integer("shading_scale", 1, 4).value_or(scene.shading_scale));
   scene.outline = read_outline(object);
   scene.fluffy = read_fluffy(object, scene.outline);
   refuse_for_animated(object, scene);

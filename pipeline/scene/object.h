@@ -32,12 +32,16 @@ struct ObjectScene {
   std::optional<std::array<double, 3>> colour;  ///< sRGB; replaces the materials' base colours
   std::optional<AnimationScene> animation;
   std::optional<ToonScene> toon;  ///< empty: flat colour, unlit
+  int shading_scale = 1;          ///< 1 to 4: surfaces are coloured at one such part of the resolution
   std::optional<OutlineScene> outline;
   std::optional<FluffyScene> fluffy;
   /// The model of a filmed thing: not drawn, but CG behind it is hidden.
   bool holdout = false;
   std::optional<RegionsScene> regions;
 };
+
+/// Whether colours drawn at a lower resolution are to be looked up: not where there is but one.
+bool has_coarse_colour(const ObjectScene& object);
 
 /// With the schemas of the object's own tables.
 toml::Schema object_schema();

@@ -9,10 +9,18 @@
 
 namespace rinkaku::pipeline {
 
-/// What --layers writes of a scene, in the order of writing: names without frame number and ending.
-std::vector<std::string> layer_names(const Scene& scene);
+/// One of the files that --layers writes for each frame.
+struct LayerFile {
+  enum class Holds { Plate, Matte, ThingLine, Cg, Lines, Depth } holds;
+  std::size_t of = 0;  ///< which thing, or which slice of depth
+  std::string name;    ///< without frame number and ending
+};
+/// What --layers writes of a scene, in the order of writing.
+std::vector<LayerFile> layer_files(const Scene& scene);
 
-/// PNGs of every layer of each frame, in one folder: the plate, each matte, and each layer of CG with straight alpha.
+/// PNGs of every layer of each frame, in one folder: the plate, each matte and the line around its thing, and of each
+/// layer of CG colours and lines with straight alpha, and depth: 16 bits, millimetres along the camera's axis, 0 where
+/// nothing was drawn and 65535 for all that is farther than 65.5345 m.
 class LayerFiles {
  public:
   /// Throws Error (Input) if one of the files can't be written.
@@ -27,12 +35,15 @@ class LayerFiles {
   std::vector<std::string> finish();
 
  private:
-  void write_matte(const Frame& plate, const Matte& matte);
+  void write_matte(const Frame& plate, const Matte& matte, sink::Sink& to);
+  void write_thing_line(const Frame& plate, const Matte& matte, sink::Sink& to);
+  void write_depth(const Frame& plate, const passes::DepthLayer& depth, sink::Sink& to);
+  Frame frame_like(const Frame& plate, const PictureFormat& format);
 
-  std::vector<std::string> names_;
-  std::vector<Output> files_;  // in the order of layer_names()
-  std::size_t things_;
+  std::vector<LayerFile> layers_;
+  std::vector<Output> files_;  // in the order of layers_
   FramePool pool_;
+  passes::Layer thing_line_;
 };
 
 }  // namespace rinkaku::pipeline

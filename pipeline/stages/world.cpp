@@ -32,33 +32,51 @@ World::World(const BackgroundScene& scene, const source::Description& plate) : i
   options_.convert_to =
       passes::rgba_format(std::max(format.width_px, static_cast<int>(std::lround(own.width_px * scale))),
                           std::max(format.height_px, static_cast<int>(std::lround(own.height_px * scale))), {1, 1});
+  is_sequence_ = scene.is_sequence;
   open();
-  if (!read()) throw input_error(input_, "it holds no picture", "give another background");
+  read_ahead();
+  if (!ahead_) throw input_error(input_, "it holds no picture", "give another background");
 }
 
 void World::open() { source_ = source::open(input_, options_); }
 
-bool World::read() {
-  const std::optional<Frame> frame = source_->next();
-  if (!frame) return false;
+void World::show(const Frame& frame) {
   const PixelRect& rect = picture_.rect;
-  const int left = (frame->format.width_px - rect.width_px) / 2, top = (frame->format.height_px - rect.height_px) / 2;
+  const int left = (frame.format.width_px - rect.width_px) / 2, top = (frame.format.height_px - rect.height_px) / 2;
   for (int y = 0; y < rect.height_px; ++y) {
     std::uint8_t* out = picture_.rgba.data() + static_cast<std::size_t>(y) * rect.width_px * 4;
-    std::memcpy(out, frame->planes[0].data + (top + y) * frame->planes[0].stride_bytes + left * 4,
+    std::memcpy(out, frame.planes[0].data + (top + y) * frame.planes[0].stride_bytes + left * 4,
                 static_cast<std::size_t>(rect.width_px) * 4);
     for (int x = 0; x < rect.width_px; ++x) out[4 * x + 3] = 255;
   }
-  return true;
 }
 
-const passes::Layer& World::next() {
-  if (!source_ || shown_++ == 0) return picture_;
-  if (read()) {
-    moves_ = true;
+// The frame after the one that is ahead; the first again after the last. Of a single picture there is no other.
+void World::read_ahead() {
+  const bool first = !ahead_;
+  const double ends_at = ahead_at_ + lasts_;
+  ahead_ = source_->next();
+  if (ahead_) {
+    moves_ = !first;
   } else if (moves_) {
     open();
-    read();
+    ahead_ = source_->next();
+    began_at_ = ends_at;
+  }
+  if (!ahead_) return;
+  const source::Description& of = source_->description();
+  const double rate = of.frame_rate.num > 0 ? of.frame_rate.value() : 25;
+  const double time_s = ahead_->time_s() - of.first_time_s();
+  ahead_at_ = began_at_ + (is_sequence_ ? static_cast<double>(ahead_->number) : time_s);
+  lasts_ = is_sequence_ ? 1 : 1 / rate;
+}
+
+const passes::Layer& World::at(double time_s, std::int64_t frame) {
+  // Containers round times, to a millisecond at worst.
+  const double now = is_sequence_ ? static_cast<double>(frame) : time_s + 0.001;
+  while (ahead_ && ahead_at_ <= now) {
+    show(*ahead_);
+    read_ahead();
   }
   return picture_;
 }

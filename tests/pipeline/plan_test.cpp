@@ -177,6 +177,27 @@ TEST(Plan, RegionsProductFollowsFromWhatShowsOfAnObject) {
   EXPECT_EQ(region_use(flat), RegionUse::Faces) << "as fluff does";
 }
 
+TEST(Plan, ColoursAreDrawnAtALowerResolutionWhereThatIsAskedForAndThereAreSeveral) {
+  Scene scene = drawn_scene();
+  EXPECT_EQ(stage(plan_of(scene), "shading-scale").why, "no object has a shading_scale above 1");
+  EXPECT_FALSE(plan_of(scene).runs("shading-scale"));
+  scene.objects[0].name = "cow";
+  scene.objects[0].shading_scale = 2;
+  EXPECT_TRUE(plan_of(scene).runs("shading-scale"));
+  EXPECT_EQ(stage(plan_of(scene), "shading-scale").why,
+            "cow is coloured at a lower resolution; edges, lines and fluff are not. Saves work only where colouring a "
+            "pixel costs more than ten lookups");
+  ObjectScene flat;
+  flat.name = "sign";
+  flat.shading_scale = 3;
+  EXPECT_TRUE(has_coarse_colour(flat)) << "its materials may have many colours";
+  flat.colour = {1, 0, 0};
+  scene.objects = {flat};
+  EXPECT_FALSE(plan_of(scene).runs("shading-scale"));
+  EXPECT_EQ(stage(plan_of(scene), "shading-scale").why, "nothing is gained for sign, which has one colour");
+  EXPECT_TRUE(plan_of(scene).runs("flat")) << "drawn all the same";
+}
+
 TEST(Plan, LensRunsOnlyForADistortedCameraThatSeesCg) {
   EXPECT_FALSE(plan_of(drawn_scene(), pinhole()).runs("lens"));
   EXPECT_TRUE(plan_of(drawn_scene(), bent()).runs("lens"));

@@ -71,11 +71,12 @@ INSTANTIATE_TEST_SUITE_P(
                  "DIR/scene.toml:8:10: unknown key 'band' in toon of [[object]]; did you mean 'bands'?"},
         BadScene{"InnerHeader", object + "[object.outline]\nwidth = 3\n",
                  "DIR/scene.toml:9:1: unknown key 'width' in outline of [[object]]; did you mean 'width_px'?"},
-        BadScene{
-            "NothingNear", object + "velocity = \"cow.rgn\"\n",
-            "DIR/scene.toml:8:1: unknown key 'velocity' in [[object]]; known keys are anchor, animation, colour, "
-            "crease_deg, "
-            "fluffy, height_m, holdout, mesh, name, outline, position_m, regions, rotation_deg, scale, toon and up"},
+        BadScene{"NothingNear", object + "velocity = \"cow.rgn\"\n",
+                 "DIR/scene.toml:8:1: unknown key 'velocity' in [[object]]; known keys are anchor, animation, colour, "
+                 "crease_deg, "
+                 "fluffy, height_m, holdout, mesh, name, outline, position_m, regions, rotation_deg, scale, "
+                 "shading_scale, toon "
+                 "and up"},
         BadScene{"TableOfALaterVersion", object + "[fog]\n",
                  "DIR/scene.toml:8:2: unknown key 'fog'; known keys are background, foreground, light, object, output, "
                  "plate, track and water"},
@@ -269,6 +270,13 @@ INSTANTIATE_TEST_SUITE_P(
         BadScene{"NameWithEscape", object + "name = \"a\\u001bb\"\n",
                  "DIR/scene.toml:8:8: 'name' in [[object]] must be a text without control characters, found the text "
                  "\"a?b\""},
+        BadScene{"ShadingScaleTooCoarse", object + "shading_scale = 5\n",
+                 "DIR/scene.toml:8:17: 'shading_scale' in [[object]] must be a whole number from 1 to 4, found 5"},
+        BadScene{"ShadingScaleBetween", object + "shading_scale = 1.5\n",
+                 "DIR/scene.toml:8:17: 'shading_scale' in [[object]] must be a whole number from 1 to 4, found 1.5"},
+        BadScene{"ShadingScaleOfAHoldout", object + "holdout = true\nshading_scale = 2\n",
+                 "DIR/scene.toml:9:17: 'shading_scale' in [[object]] has no meaning for a holdout, which is not drawn; "
+                 "leave it out"},
         BadScene{"ToonNumber", object + "toon = 3\n",
                  "DIR/scene.toml:8:8: 'toon' in [[object]] must be true, false or a table { ... }, found 3"},
         BadScene{"OneBand", object + "toon = { bands = 1 }\n",

@@ -181,6 +181,7 @@ void FluffyPass::draw_edges(const passes::DrawCall& call) {
   glBindVertexArray(array_.name());
   for (const Painter* painter : {rim_ ? &*rim_ : nullptr, &fluff_}) {
     if (painter == nullptr) continue;
+    if (call.lines_only && painter == &fluff_) glBlendFunc(GL_ZERO, GL_ONE_MINUS_SRC_ALPHA);
     glUseProgram(painter->program.name());
     glUniformMatrix4fv(painter->clip_from_frame, 1, GL_FALSE, glm::value_ptr(clip_from_frame));
     glUniform3fv(painter->eye, 1, glm::value_ptr(glm::vec3(eye)));
@@ -194,6 +195,7 @@ void FluffyPass::draw_edges(const passes::DrawCall& call) {
       glDrawElements(GL_TRIANGLES, count, GL_UNSIGNED_INT, nullptr);
     }
   }
+  glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
 }
 
 }  // namespace rinkaku::fluffy

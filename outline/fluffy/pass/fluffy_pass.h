@@ -61,6 +61,7 @@ class FluffyPass : public passes::ObjectPass {
   void follow(MovingFrame frame);
 
   const char* name() const override { return "fluffy"; }
+  bool draws_lines() const override { return rim_.has_value(); }  // around the tufts
   double reach_px(const passes::View& view) const override;
   void draw_surface(const passes::DrawCall&) override {}
   void draw_edges(const passes::DrawCall& call) override;

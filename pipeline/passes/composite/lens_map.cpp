@@ -100,18 +100,35 @@ PixelRect LensMap::plate_rect(const PixelRect& pinhole) const {
   return intersection({x0, y0, x1 - x0, y1 - y0}, {0, 0, camera_.width_px, camera_.height_px});
 }
 
+// Where the pixels of `plate` lie in `pinhole`.
+void LensMap::shift(const PixelRect& plate, const PixelRect& pinhole) const {
+  Tables& t = *tables_;
+  const cv::Rect area(plate.x_px, plate.y_px, plate.width_px, plate.height_px);
+  cv::subtract(t.x_px(area), cv::Scalar(pinhole.x_px), t.shifted_x);
+  cv::subtract(t.y_px(area), cv::Scalar(pinhole.y_px), t.shifted_y);
+}
+
 void LensMap::distort(const Layer& pinhole, Layer& plate) const {
   plate.rect = plate_rect(pinhole.rect);
   plate.rgba.resize(static_cast<std::size_t>(plate.rect.width_px) * plate.rect.height_px * 4);
   if (plate.rect.empty()) return;
-  Tables& t = *tables_;
-  const cv::Rect area(plate.rect.x_px, plate.rect.y_px, plate.rect.width_px, plate.rect.height_px);
-  cv::subtract(t.x_px(area), cv::Scalar(pinhole.rect.x_px), t.shifted_x);
-  cv::subtract(t.y_px(area), cv::Scalar(pinhole.rect.y_px), t.shifted_y);
+  shift(plate.rect, pinhole.rect);
   const cv::Mat from(pinhole.rect.height_px, pinhole.rect.width_px, CV_8UC4,
                      const_cast<std::uint8_t*>(pinhole.rgba.data()));
   cv::Mat to(plate.rect.height_px, plate.rect.width_px, CV_8UC4, plate.rgba.data());
-  cv::remap(from, to, t.shifted_x, t.shifted_y, cv::INTER_LINEAR, cv::BORDER_CONSTANT, cv::Scalar::all(0));
+  cv::remap(from, to, tables_->shifted_x, tables_->shifted_y, cv::INTER_LINEAR, cv::BORDER_CONSTANT,
+            cv::Scalar::all(0));
+}
+
+void LensMap::distort(const DepthLayer& pinhole, DepthLayer& plate) const {
+  plate.rect = plate_rect(pinhole.rect);
+  plate.depth_m.resize(static_cast<std::size_t>(plate.rect.width_px) * plate.rect.height_px);
+  if (plate.rect.empty()) return;
+  shift(plate.rect, pinhole.rect);
+  const cv::Mat from(pinhole.rect.height_px, pinhole.rect.width_px, CV_32F, const_cast<float*>(pinhole.depth_m.data()));
+  cv::Mat to(plate.rect.height_px, plate.rect.width_px, CV_32F, plate.depth_m.data());
+  cv::remap(from, to, tables_->shifted_x, tables_->shifted_y, cv::INTER_NEAREST, cv::BORDER_CONSTANT,
+            cv::Scalar::all(0));
 }
 
 }  // namespace rinkaku::passes

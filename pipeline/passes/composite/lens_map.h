@@ -28,8 +28,12 @@ class LensMap {
 
   /// `pinhole` as the lens shows it. `plate.rect` is set to plate_rect(pinhole.rect), its memory reused.
   void distort(const Layer& pinhole, Layer& plate) const;
+  /// The same for depth, which is taken from the nearest pixel: between two surfaces there is nothing.
+  void distort(const DepthLayer& pinhole, DepthLayer& plate) const;
 
  private:
+  void shift(const PixelRect& plate, const PixelRect& pinhole) const;
+
   struct Tables;
   CameraModel camera_;
   std::unique_ptr<Tables> tables_;

@@ -39,6 +39,9 @@ float banded(float x) {
 
 void main() {
   vec4 colour = base_colour;
+#ifdef COARSE
+  colour.rgb = looked_up_colour(colour.rgb);
+#endif
 #ifdef VERTEX_COLOURS
   colour *= vertex_colour;
 #endif

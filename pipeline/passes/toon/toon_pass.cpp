@@ -22,9 +22,11 @@ enum Feature : unsigned {
   Fine = 128,  // lit by vertex: the mesh is fine enough
   Even = 256,  // lit by triangle: no band's border runs through
   Border = 512,
+  Coarse = 1024,  // coloured already, at a lower resolution
 };
-constexpr std::string_view feature_names[] = {"LIT",         "TEXTURED", "VERTEX_COLOURS", "MASKED", "TWO_SIDED",
-                                              "TRANSLUCENT", "FEATHER",  "FINE",           "EVEN",   "BORDER"};
+constexpr std::string_view feature_names[] = {"LIT",       "TEXTURED",    "VERTEX_COLOURS", "MASKED",
+                                              "TWO_SIDED", "TRANSLUCENT", "FEATHER",        "FINE",
+                                              "EVEN",      "BORDER",      "COARSE"};
 
 // Whether lighting the vertices and interpolating gives the same bands as lighting each pixel. Where the normals at a
 // triangle's corners differ by an angle d, the two differ by d^2 / 8, in a triangle over which brightness changes by d:
@@ -56,24 +58,38 @@ ToonPass::ToonPass(DrawnObject& object, const mesh::Mesh& mesh, const ToonOption
   if ((common & Lit) != 0 && !object.shape().two_sided() && is_fine(mesh, object.shape().moves())) common |= Fine;
   const bool has_borders = !object.shape().border_vertices().empty() || object.shape().intersects_itself();
   for (const mesh::Part& part : mesh.parts) {
-    const mesh::Material& material = mesh.materials[part.material];
-    unsigned features = common;
-    if (material.texture >= 0) features |= Textured;
-    if (material.alpha == mesh::Material::Alpha::Mask) features |= Masked;
-    if (material.alpha == mesh::Material::Alpha::Blend) features |= Translucent;
-    PartStyle style;
-    style.surface = variant(features);
-    // Even triangles come with levels of detail only. (Of two-sided ones it takes a pixel to know the side.)
-    const bool by_triangle = object.shape().has_levels() && (features & (Lit | TwoSided)) == Lit;
-    style.even = by_triangle ? variant((features & ~Fine) | Even) : style.surface;
-    style.feather = variant(features | Feather);
-    if (has_borders) style.border = variant(features | Feather | Border);
-    style.base_colour = material.base_colour;
-    style.alpha_cutoff = material.alpha_cutoff;
-    style.texture = material.texture;
-    style.translucent = material.alpha == mesh::Material::Alpha::Blend;
-    parts_.push_back(style);
+    parts_.push_back(part_style(mesh.materials[part.material], common, has_borders));
   }
+  if (std::any_of(parts_.begin(), parts_.end(), [](const PartStyle& p) { return p.coarse; })) {
+    coarse_.emplace(options.shading_scale);
+  }
+}
+
+ToonPass::PartStyle ToonPass::part_style(const mesh::Material& material, unsigned common, bool has_borders) {
+  unsigned features = common;
+  if (material.texture >= 0) features |= Textured;
+  if (material.alpha == mesh::Material::Alpha::Mask) features |= Masked;
+  if (material.alpha == mesh::Material::Alpha::Blend) features |= Translucent;
+  PartStyle style;
+  style.surface = variant(features);
+  // Even triangles come with levels of detail only. (Of two-sided ones it takes a pixel to know the side.)
+  const bool by_triangle = object_.shape().has_levels() && (features & (Lit | TwoSided)) == Lit;
+  style.even = by_triangle ? variant((features & ~Fine) | Even) : style.surface;
+  style.feather = variant(features | Feather);
+  // What a texture cuts out must be looked up in it anyway.
+  style.coarse = options_.shading_scale > 1 && (features & (Masked | Translucent)) == 0;
+  if (style.coarse) {
+    style.coarse_surface = style.surface, style.coarse_even = style.even, style.coarse_band = style.feather;
+    style.surface = style.even = variant(Coarse);
+    style.feather = variant(Coarse | Feather);
+    features = Coarse;
+  }
+  if (has_borders) style.border = variant(features | Feather | Border);
+  style.base_colour = material.base_colour;
+  style.alpha_cutoff = material.alpha_cutoff;
+  style.texture = material.texture;
+  style.translucent = material.alpha == mesh::Material::Alpha::Blend;
+  return style;
 }
 
 std::size_t ToonPass::variant(unsigned features) {
@@ -85,7 +101,8 @@ std::size_t ToonPass::variant(unsigned features) {
     if (features & (1u << bit)) defines.push_back(feature_names[bit]);
   }
   const std::string_view vertex[] = {screen_offset_glsl(), embedded::toon_vert};
-  const std::string_view fragment[] = {embedded::toon_frag};
+  const bool coarse = (features & Coarse) != 0;
+  const std::string_view fragment[] = {coarse ? CoarseColour::glsl() : std::string_view(), embedded::toon_frag};
   Variant v;
   v.features = features;
   v.program = gl::Program("toon", defines, vertex, fragment);
@@ -96,6 +113,7 @@ std::size_t ToonPass::variant(unsigned features) {
   v.offset_px = v.program.uniform("offset_px");
   v.edge_coverage = v.program.uniform("edge_coverage");
   v.flip_back_faces = v.program.uniform("flip_back_faces");
+  if (coarse) v.coarse = CoarseColour::Uniforms(v.program);
   const GLuint name = v.program.name();
   glProgramUniform3fv(name, v.program.uniform("light"), 1, glm::value_ptr(options_.light));
   glProgramUniform3fv(name, v.program.uniform("shade"), 1, glm::value_ptr(options_.shade_colour));
@@ -106,23 +124,48 @@ std::size_t ToonPass::variant(unsigned features) {
   return variants_.size() - 1;
 }
 
+bool ToonPass::belongs(const PartStyle& style, Stage stage) {
+  if (stage == Stage::CoarseSurface || stage == Stage::CoarseBand) return style.coarse;
+  return style.translucent == (stage == Stage::Translucent);
+}
+
+std::size_t ToonPass::variant_of(const PartStyle& style, Stage stage, bool even) {
+  switch (stage) {
+    case Stage::Border:
+      return style.border;
+    case Stage::Feather:
+      return style.feather;
+    case Stage::CoarseBand:
+      return style.coarse_band;
+    case Stage::CoarseSurface:
+      return even ? style.coarse_even : style.coarse_surface;
+    case Stage::Surface:
+    case Stage::Translucent:
+      break;
+  }
+  return even ? style.even : style.surface;
+}
+
 void ToonPass::draw(const DrawCall& call, std::span<const Run> runs, Stage stage) {
-  const bool surface = stage == Stage::Surface || stage == Stage::Translucent;
+  const bool surface = stage == Stage::Surface || stage == Stage::Translucent || stage == Stage::CoarseSurface;
   const Variant* bound = nullptr;
   for (const Run& run : runs) {
     const PartStyle& style = parts_[run.part];
-    if (style.translucent != (stage == Stage::Translucent)) continue;
-    const Variant& v = variants_[stage == Stage::Border    ? style.border
-                                 : stage == Stage::Feather ? style.feather
-                                 : run.even                ? style.even
-                                                           : style.surface];
+    if (!belongs(style, stage)) continue;
+    const Variant& v = variants_[variant_of(style, stage, run.even)];
     if (&v != bound) {
       glUseProgram(v.program.name());
       v.offset.set(call);
       glUniformMatrix3fv(v.world_from_normal, 1, GL_FALSE, glm::value_ptr(object_.shape().world_from_normal()));
       const float overlap_px = stage == Stage::Feather ? object_.shape().last_look().overlap_px : 0;
-      glUniform2f(v.offset_px, -feather_px - overlap_px, feather_px);
-      glUniform1f(v.edge_coverage, 1 + overlap_px);
+      if (stage == Stage::CoarseBand) {
+        glUniform2f(v.offset_px, -coarse_->band_px(), coarse_->band_px());
+      } else {
+        glUniform2f(v.offset_px, -feather_px - overlap_px, feather_px);
+      }
+      if ((v.features & Coarse) != 0) coarse_->set(v.coarse, call);
+      // A band is opaque but for its outermost eighth.
+      glUniform1f(v.edge_coverage, stage == Stage::CoarseBand ? 8 : 1 + overlap_px);
       glUniform1i(v.flip_back_faces, surface ? 1 : 0);
       bound = &v;
     }
@@ -133,7 +176,20 @@ void ToonPass::draw(const DrawCall& call, std::span<const Run> runs, Stage stage
   }
 }
 
-void ToonPass::draw_surface(const DrawCall& call) { draw(call, object_.bind_front(), Stage::Surface); }
+void ToonPass::draw_coarse(const DrawCall& full) {
+  const ObjectShape& shape = object_.shape();
+  const DrawCall call = coarse_->begin(full, shape.last_look().bounds, shape.world_from_object());
+  draw(call, object_.bind_front(), Stage::CoarseSurface);
+  coarse_->begin_bands();
+  glDisable(GL_CULL_FACE);
+  draw(call, object_.bind_contour(), Stage::CoarseBand);
+  coarse_->end();
+}
+
+void ToonPass::draw_surface(const DrawCall& call) {
+  if (coarse_) draw_coarse(call);
+  draw(call, object_.bind_front(), Stage::Surface);
+}
 
 void ToonPass::draw_edges(const DrawCall& call) {
   draw(call, object_.bind_borders(), Stage::Border);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include <glm/vec3.hpp>
@@ -10,6 +11,7 @@
 #include "pipeline/gl/texture.h"
 #include "pipeline/passes/offset_uniforms.h"
 #include "pipeline/passes/pass.h"
+#include "pipeline/passes/toon/coarse_colour.h"
 
 namespace rinkaku::passes {
 
@@ -17,6 +19,8 @@ struct ToonOptions {
   int bands = 3;                                ///< 0: unlit, the flat colour of material and texture
   glm::vec3 shade_colour{0.62f, 0.60f, 0.78f};  ///< what the darkest band multiplies the colour by, sRGB-encoded
   glm::vec3 light{-0.4f, 0.5f, 0.8f};           ///< towards the light, in the world; any length
+  /// Opaque parts are coloured at one this-th of the resolution (see CoarseColour); coverage is the same.
+  int shading_scale = 1;
 };
 
 /// Draws a mesh as flat bands of light and shade (cel shading): the cosine to the light, raised to reach around the
@@ -40,16 +44,24 @@ class ToonPass : public ObjectPass {
     OffsetUniforms offset;
     GLint base_colour = -1, alpha_cutoff = -1, world_from_normal = -1, offset_px = -1, flip_back_faces = -1;
     GLint edge_coverage = -1;
+    CoarseColour::Uniforms coarse;
   };
   struct PartStyle {
     std::size_t surface = 0, even = 0, feather = 0, border = 0;  // indices of variants_
+    // What colours the coarse picture, if it has one.
+    std::size_t coarse_surface = 0, coarse_even = 0, coarse_band = 0;
+    bool coarse = false;
     glm::vec4 base_colour{1};
     float alpha_cutoff = 0.5f;
     int texture = -1;
     bool translucent = false;
   };
-  enum class Stage { Surface, Translucent, Feather, Border };
+  enum class Stage { Surface, Translucent, Feather, Border, CoarseSurface, CoarseBand };
   std::size_t variant(unsigned features);
+  PartStyle part_style(const mesh::Material& material, unsigned common, bool has_borders);
+  static bool belongs(const PartStyle& style, Stage stage);
+  static std::size_t variant_of(const PartStyle& style, Stage stage, bool even);
+  void draw_coarse(const DrawCall& call);
   void draw(const DrawCall& call, std::span<const Run> runs, Stage stage);
 
   DrawnObject& object_;
@@ -57,6 +69,7 @@ class ToonPass : public ObjectPass {
   std::vector<Variant> variants_;
   std::vector<PartStyle> parts_;
   std::vector<gl::Texture> textures_;
+  std::optional<CoarseColour> coarse_;
 };
 
 }  // namespace rinkaku::passes
