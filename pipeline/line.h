@@ -68,7 +68,8 @@ class Line {
   using Decode = std::function<std::optional<Work>()>;
   using Drawn = std::function<void()>;
   /// Runs until `decode` gives nothing more, then returns how many frames came through to the end. `drawn` is called on
-  /// the calling thread after each frame's drawing, run-up left out. Rethrows what a stage threw, once all threads have ended.
+  /// the calling thread after each frame's drawing, run-up left out. Rethrows what a stage threw, once all threads have
+  /// ended.
   std::int64_t run(const Decode& decode, const Drawn& drawn, Pace pace = Pace::EveryFrame);
 
   /// Decoding first, then the stages in the order of adding.
