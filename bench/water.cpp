@@ -7,20 +7,19 @@
 #include <cmath>
 #include <cstdio>
 #include <ctime>
-#include <memory>
 #include <numbers>
 #include <string>
 #include <vector>
 
 #include <glm/geometric.hpp>
 
-#include "bench/water_scenes.h"
 #include "mesh/depth_order.h"
 #include "pipeline/gl/context.h"
-#include "pipeline/passes/layer_renderer.h"
 #include "water/painting.h"
-#include "water/pass/water_pass.h"
 #include "water/scatter.h"
+#include "water/verify/painter.h"
+#include "water/verify/scenes.h"
+#include "water/verify/warping_error.h"
 
 namespace rinkaku::bench {
 namespace {
@@ -35,42 +34,6 @@ double cpu_ms() {
 double wall_ms() {
   return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
-
-// Paints and draws a river frame by frame.
-class Painter {
- public:
-  Painter(const River& river, const ReferencePicture& reference, const PaintingOptions& options)
-      : river_(river),
-        reference_(reference),
-        painting(*river.surface, river.arrows, {}, river.outlook(), options),
-        renderer_({}, {0, 0, river.camera.width_px, river.camera.height_px}) {
-    auto pass = std::make_unique<WaterPass>(line_brushes(), drop_brushes());
-    pass_ = pass.get();
-    renderer_.add(std::move(pass));
-  }
-  const Strokes& strokes(std::int64_t frame) {
-    return painting.paint(frame, river_.camera, river_.camera_from_world,
-                          [this]() -> const ReferencePicture& { return reference_; });
-  }
-  const passes::Layer& draw(const Strokes& strokes) {
-    const PaintedSurface painted{river_.surface.get(), strokes};
-    pass_->show({&painted, 1}, {}, {});
-    renderer_.draw({river_.camera, river_.camera_from_world}, layer_);
-    return layer_;
-  }
-
- private:
-  const River& river_;
-  const ReferencePicture& reference_;
-
- public:
-  Painting painting;
-
- private:
-  passes::LayerRenderer renderer_;
-  WaterPass* pass_;
-  passes::Layer layer_;
-};
 
 double median(std::vector<double> v) {
   std::nth_element(v.begin(), v.begin() + static_cast<std::ptrdiff_t>(v.size() / 2), v.end());
@@ -170,7 +133,7 @@ void coverage(const River& river, const ReferencePicture& reference) {
   }
   double worst = 0, mean = 0, most_births = 0, most_change = 0;
   std::size_t pixels = 0;
-  std::vector<float> opacity(painter.painting.particles().list().size(), -1);
+  std::vector<float> opacity(painter.particles().list().size(), -1);
   std::vector<std::uint32_t> serial(opacity.size(), 0);
   for (int frame = 0; frame < 1000; ++frame) {
     const passes::Layer& layer = painter.draw(painter.strokes(frame));
@@ -186,7 +149,7 @@ void coverage(const River& river, const ReferencePicture& reference) {
     }
     const double part = static_cast<double>(bare) / static_cast<double>(pixels);
     worst = std::max(worst, part), mean += part / 1000;
-    const Particles& particles = painter.painting.particles();
+    const Particles& particles = painter.particles();
     const Census& census = particles.census();
     if (frame > 0) {
       most_births = std::max(
@@ -211,64 +174,19 @@ void coverage(const River& river, const ReferencePicture& reference) {
       100 * mean, 100 * worst, 100 * most_births, most_change);
 }
 
-// Mean squared difference between a frame and the next one carried back along the flow (Lai et al. 2018), and the
-// standard deviation of brightness.
 struct Flicker {
-  double warping = 0, contrast = 0, bare = 0;
+  double warping = 0, contrast = 0;
 };
 Flicker flicker(const River& river, const ReferencePicture& reference, const PaintingOptions& options, int frames) {
   Painter painter(river, reference, options);
   Flow flow(*river.surface, river.arrows, options.flow);
   flow.set_frame(0);
-  struct Way {
-    int from;
-    float x, y;
-  };
-  std::vector<Way> ways;
-  for (int y = 4; y < 396; ++y) {
-    for (int x = 4; x < 396; ++x) {
-      const SeenPoint p = back_projected(*river.surface, river.camera, river.camera_from_world, glm::dvec2(x, y));
-      if (!p.found || !river.surface->contains(p.at)) continue;
-      glm::dvec2 q = p.at, velocity;
-      carry_along(flow, *river.surface, options.seconds_per_frame, q, velocity);
-      const glm::dvec3 c = river.camera_from_world * river.surface->to_world(q);
-      const glm::dvec2 to = to_pixels(river.camera, {c.x / c.z, c.y / c.z});
-      if (to.x < 1 || to.y < 1 || to.x > 397 || to.y > 397 || !river.surface->contains(q)) continue;
-      ways.push_back({y * 400 + x, static_cast<float>(to.x), static_cast<float>(to.y)});
-    }
-  }
-  std::vector<glm::vec3> before(400 * 400), now(400 * 400);
+  const WarpingError error(flow, *river.surface, river.camera, river.camera_from_world, options.seconds_per_frame);
+  std::vector<glm::vec3> before, now;
   Flicker f;
   for (int frame = 60; frame <= 60 + frames; ++frame) {
-    const passes::Layer& layer = painter.draw(painter.strokes(frame));
-    std::fill(now.begin(), now.end(), glm::vec3(0.5f));
-    for (int y = 0; y < layer.rect.height_px; ++y) {
-      for (int x = 0; x < layer.rect.width_px; ++x) {
-        const std::uint8_t* s = layer.rgba.data() + (static_cast<std::size_t>(y) * layer.rect.width_px + x) * 4;
-        now[(y + layer.rect.y_px) * 400 + x + layer.rect.x_px] =
-            glm::vec3(s[0], s[1], s[2]) / 255.0f + 0.5f * (1 - s[3] / 255.0f);
-      }
-    }
-    if (frame > 60) {
-      double sum = 0;
-      for (const Way& w : ways) {
-        const int i = static_cast<int>(w.x), j = static_cast<int>(w.y);
-        const float fx = w.x - static_cast<float>(i), fy = w.y - static_cast<float>(j);
-        const glm::vec3* s = now.data() + j * 400 + i;
-        const glm::vec3 there = (s[0] * (1 - fx) + s[1] * fx) * (1 - fy) + (s[400] * (1 - fx) + s[401] * fx) * fy;
-        const glm::vec3 d = there - before[w.from];
-        sum += glm::dot(d, d) / 3;
-      }
-      f.warping += sum / static_cast<double>(ways.size()) / frames;
-      double mean = 0, squares = 0;
-      for (const Way& w : ways) {
-        const glm::vec3 c = now[w.from];
-        const double l = (c.r + c.g + c.b) / 3;
-        mean += l, squares += l * l;
-      }
-      mean /= static_cast<double>(ways.size());
-      f.contrast += std::sqrt(squares / static_cast<double>(ways.size()) - mean * mean) / frames;
-    }
+    over_grey(painter.draw(painter.strokes(frame)), river.camera, now);
+    if (frame > 60) f.warping += error.between(before, now) / frames, f.contrast += error.contrast(now) / frames;
     std::swap(before, now);
   }
   return f;

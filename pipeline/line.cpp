@@ -51,7 +51,7 @@ void decode_all(const Line::Decode& decode, StageTimes& times, Queue& out) {
       std::optional<Work> work = decode();
       if (!work) break;
       const auto took = Clock::now() - start;
-      times.add(took);
+      if (!work->run_up) times.add(took);
       work->stage_ms[0] = milliseconds(took);
       if (!out.push(std::move(*work))) break;
     }
@@ -61,12 +61,16 @@ void decode_all(const Line::Decode& decode, StageTimes& times, Queue& out) {
   }
 }
 
+enum class RunUp { HandOn, End };
+
 // Takes from one queue, runs the stages, hands on. Whatever is thrown goes to the consumer and stops the producer.
 template <typename Stages>
-void hand_on(Queue& in, const Stages& stages, Queue& out, const std::function<void()>& each = {}) {
+void hand_on(Queue& in, const Stages& stages, Queue& out, RunUp run_up = RunUp::HandOn,
+             const std::function<void()>& each = {}) {
   try {
     while (std::optional<Work> work = in.pop()) {
       for (auto* stage : stages) (*stage)(*work);
+      if (work->run_up && run_up == RunUp::End) continue;
       if (!out.push(std::move(*work))) break;
       if (each) each();
     }
@@ -99,7 +103,7 @@ void Line::Stage::operator()(Work& work) {
   const auto start = Clock::now();
   step(work);
   const auto took = Clock::now() - start;
-  report.times.add(took);
+  if (!work.run_up) report.times.add(took);
   work.stage_ms[index] = milliseconds(took);
 }
 
@@ -137,7 +141,7 @@ std::int64_t Line::run(const Decode& decode, const Drawn& drawn_one, Pace pace) 
     if (!matte.empty()) threads.start([&] { hand_on(to_matte, matte, matted); });
     if (!composite.empty()) threads.start([&] { hand_on(drawn, composite, finished); });
     threads.start([&] { failure = take_in(finished, encode, frames); });
-    hand_on(to_draw, draw, from_draw, drawn_one);
+    hand_on(to_draw, draw, from_draw, RunUp::End, drawn_one);
     threads.join();
   }
   if (failure) std::rethrow_exception(failure);

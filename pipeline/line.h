@@ -25,6 +25,7 @@ namespace rinkaku::pipeline {
 struct Work {
   Frame frame;
   std::optional<TrackedPose> pose;
+  bool run_up = false;  ///< shows later stages what was before the first frame asked for; ends with the drawing group
   std::vector<Matte> mattes;              ///< of filmed things, nearest first
   std::vector<passes::Layer> slices;      ///< CG before, between and behind the mattes; one more than they are
   std::vector<passes::LayerParts> parts;  ///< of what is drawn(), if --layers asks for them
@@ -68,7 +69,8 @@ class Line {
   using Decode = std::function<std::optional<Work>()>;
   using Drawn = std::function<void()>;
   /// Runs until `decode` gives nothing more, then returns how many frames came through to the end. `drawn` is called on
-  /// the calling thread after each frame's drawing. Rethrows what a stage threw, once all threads have ended.
+  /// the calling thread after each frame's drawing, run-up left out. Rethrows what a stage threw, once all threads have
+  /// ended.
   std::int64_t run(const Decode& decode, const Drawn& drawn, Pace pace = Pace::EveryFrame);
 
   /// Decoding first, then the stages in the order of adding.

@@ -30,21 +30,24 @@ namespace {
 
 using Group = Line::Group;
 
-// Decodes up to the first frame asked for, so that it isn't timed as that one's; returns how many frames came before.
+// Decodes up to the first frame wanted, so that it isn't timed as that one's; returns how many frames came before.
 std::int64_t skip_to(source::Source& source, std::int64_t first_frame, const std::atomic<bool>& stop) {
   std::int64_t skipped = 0;
   while (skipped < first_frame && !stop && source.next()) ++skipped;
   return skipped;
 }
 
-// The frames from here on, until there are none, or the end, or `stop` says so.
+// The frames from here on, until there are none, or the end, or `stop` says so; `before` counts those that come before
+// the first one asked for.
 Line::Decode decoder(source::Source& source, const RenderOptions& options, const std::atomic<bool>& stop,
-                     Spent<Work>& spent) {
+                     Spent<Work>& spent, std::int64_t& before) {
   return [&]() -> std::optional<Work> {
     if (stop) return std::nullopt;
     std::optional<Frame> frame = source.next();
     if (!frame || frame->number >= options.end_frame) return std::nullopt;
     Work work = spent.take();
+    work.run_up = frame->number < options.first_frame;
+    if (work.run_up) ++before;
     work.frame = std::move(*frame);
     return work;
   };
@@ -102,7 +105,7 @@ class Run {
   void draw(Work& work);
   void merge(Work& work);
   void finish();
-  void require_frames(std::int64_t skipped) const;
+  void require_frames(std::int64_t before) const;
 
   bool runs(std::string_view stage) const { return prepared_.plan.runs(stage); }
   const source::Description& described() const { return source_->description(); }
@@ -183,7 +186,9 @@ void Run::add_tracking() {
 void Run::add_mattes() {
   if (!runs("matte")) return;
   filmed_.emplace(prepared_, described());
-  line_.add(Group::Matte, "matte", [this](Work& work) { filmed_->find(work); });
+  line_.add(Group::Matte, "matte", [this](Work& work) {
+    if (!work.run_up) filmed_->find(work);
+  });
 }
 
 void Run::add_drawing() {
@@ -203,6 +208,7 @@ void Run::add_drawing() {
     });
   }
   line_.add(Group::Draw, "draw", [this](Work& work) {
+    if (work.run_up) return;
     if (!water_) take_change(work.frame);
     draw(work);
   });
@@ -318,24 +324,26 @@ void Run::add_outputs() {
 RenderReport Run::go(const Progress& progress) {
   const auto start = std::chrono::steady_clock::now();
   const std::int64_t total = frames_expected(described(), options_);
-  const std::int64_t skipped = skip_to(*source_, options_.first_frame, stop_);
+  // Water is shown what it mirrored before.
+  const std::int64_t first = water_ ? water_->first_remembered(options_.first_frame) : options_.first_frame;
+  std::int64_t before = skip_to(*source_, first, stop_);
   const Watched watched(watcher_, *source_, line_);
   const Line::Drawn drawn_one = [&, done = std::int64_t{0}]() mutable {
     if (progress) progress(++done, total);
   };
-  report_.frames = line_.run(decoder(*source_, options_, stop_, spent_), drawn_one,
+  report_.frames = line_.run(decoder(*source_, options_, stop_, spent_, before), drawn_one,
                              described().live ? Pace::NewestFrame : Pace::EveryFrame);
   report_.interrupted = stop_;
-  require_frames(skipped);
+  require_frames(before);
   finish();
   report_.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   report_.stages = line_.reports();
   return std::move(report_);
 }
 
-void Run::require_frames(std::int64_t skipped) const {
+void Run::require_frames(std::int64_t before) const {
   if (report_.interrupted) return;
-  if (report_.frames == 0) throw no_frame_error(described(), options_, skipped);
+  if (report_.frames == 0) throw no_frame_error(described(), options_, before);
   if (runs("draw") && report_.posed_frames == 0 && !described().live) {
     throw no_pose_error(prepared_, described(), report_.frames);
   }

@@ -43,6 +43,9 @@ class KeyColours {
   std::vector<glm::vec3> keys_;
 };
 
+/// Colours that follow have forgotten what was so many frames ago, to less than a step of 8 bits.
+inline constexpr int memory_frames = 30;
+
 /// Colours that follow the reference picture without knowing what comes: a low-pass filter of second order over the
 /// past frames, for live use. Its lag behind an even change is four frames.
 class FollowedColours {

@@ -12,8 +12,6 @@ namespace rinkaku::water {
 namespace {
 
 constexpr int keys_ahead = 2;
-// Colours that follow have forgotten what was so many frames ago, to less than a step of 8 bits.
-constexpr int memory_frames = 30;
 constexpr double looked_ahead_frames = 6;
 constexpr std::uint32_t nobody = 0xffffffff;
 
@@ -115,7 +113,7 @@ glm::vec3 Painting::wave_colour(const Particle& p, const ReferencePicture& refer
   // The stroke's own area; less of it along the stroke where colours are averaged along its way in time as well: over
   // the keys around, or by the filter, which is helped by looking some frames ahead and back.
   using Colours = PaintingOptions::Colours;
-  const double along = options_.colours == Colours::Sampled ? 0.6 : 0.2;
+  const double along = options_.colours == Colours::Sampled ? 0.6 : 0.12;
   glm::dvec2 reach = glm::abs(glm::dvec2(s.half_px)) * along;
   if (options_.colours == Colours::Followed) {
     reach += glm::abs(screen_velocity(p)) * (options_.seconds_per_frame * looked_ahead_frames);

@@ -108,6 +108,16 @@ void ReferencePicture::paint(const Surface& surface, const CameraModel& camera, 
   }
 }
 
+void ReferencePicture::mix(std::span<const ReferencePicture* const> pictures, std::span<const float> weights) {
+  ++version_;
+  width_px_ = pictures[0]->width_px_, height_px_ = pictures[0]->height_px_, step_px_ = pictures[0]->step_px_;
+  samples_.assign(pictures[0]->samples_.size(), glm::vec3(0));
+  for (std::size_t k = 0; k < pictures.size(); ++k) {
+    const glm::vec3* from = pictures[k]->samples_.data();
+    for (std::size_t i = 0; i < samples_.size(); ++i) samples_[i] += from[i] * weights[k];
+  }
+}
+
 glm::vec3 ReferencePicture::at(glm::dvec2 pixel) const {
   const double x = std::clamp(pixel.x / step_px_, 0.0, width_px_ - 1.001);
   const double y = std::clamp(pixel.y / step_px_, 0.0, height_px_ - 1.001);

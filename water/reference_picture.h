@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include <glm/vec2.hpp>
@@ -52,6 +53,9 @@ class ReferencePicture {
              const MirrorOptions& options, const Picture* plate, const Picture* mirrored, int mirrored_step_px,
              int step_px);
 
+  /// Becomes the weighted sum of pictures of one size, as it lies between them in time.
+  void mix(std::span<const ReferencePicture* const> pictures, std::span<const float> weights);
+
   /// At a pixel of the pinhole picture: bilinear; beyond the border as at it.
   glm::vec3 at(glm::dvec2 pixel) const;
   bool empty() const { return samples_.empty(); }
@@ -59,7 +63,7 @@ class ReferencePicture {
   int height_px() const { return height_px_; }
   const std::vector<glm::vec3>& samples() const { return samples_; }
   int step_px() const { return step_px_; }
-  /// Another one after each paint().
+  /// Another one after each paint() and mix().
   int version() const { return version_; }
 
  private:

@@ -1,6 +1,7 @@
 #include "pipeline/stages/water_stage.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <numbers>
@@ -20,8 +21,10 @@ namespace {
 // for: strokes are larger than that.
 constexpr int reference_step_px = 4, mirrored_step_px = 2;
 constexpr int plate_most_px = 320;
-// Without key frames the reference picture is made anew every so many frames.
+// Where colours follow the reference picture is made anew every so many frames.
 constexpr std::int64_t reference_lasts = 3;
+// Of its pictures so many are kept: a spline of third order runs between as many keys.
+constexpr std::int64_t kept = 4;
 
 }  // namespace
 
@@ -32,17 +35,30 @@ struct WaterStage::Parts {
     water::MirrorOptions mirror;
     std::optional<water::Painting> painting;
     std::optional<water::Waterline> waterline;
-    water::ReferencePicture reference;
-    std::optional<std::int64_t> reference_frame;
-    bool followed = false;
+    // A picture stands for a block of so many frames: only its first frame is looked at, so that no picture hangs on
+    // where a render began.
+    std::int64_t block_frames = 1;
+    bool keys = false;  // strokes' colours, and so those of the first coat, lie on a spline between blocks
+    struct Reference {
+      water::ReferencePicture picture;
+      std::optional<std::int64_t> block;
+    };
+    std::array<Reference, kept> references{};  // by block
+    water::ReferencePicture ground{};          // between them
+
+    std::int64_t block(std::int64_t frame) const { return frame / block_frames; }
+    Reference& of_block(std::int64_t block) { return references[static_cast<std::size_t>(block % kept)]; }
   };
 
   Parts(const Scene& scene, const CameraModel& c, Drawing& d)
-      : camera(c), drawing(d), has_objects(!scene.objects.empty()), plates(plate_most_px) {}
+      : camera(c), drawing(d), has_objects(!scene.objects.empty()), plates(plate_most_px) {
+    for (const ObjectScene& object : scene.objects) remembers = remembers || object.animation.has_value();
+  }
 
   void add_surface(const WaterScene& water, const WaterSurfaceScene& surface, const KnownPoses& poses,
                    double frames_per_s, std::span<const water::Solid> solids, double share);
   const water::ReferencePicture& reference(Piece& piece, const Frame& frame, const RigidTransform& camera_from_world);
+  const water::ReferencePicture& ground(Piece& piece, std::int64_t frame);
   void mirror_objects(const water::Surface& surface, const RigidTransform& camera_from_world);
 
   double time_s = 0;  // of the frame
@@ -60,12 +76,15 @@ struct WaterStage::Parts {
   water::Strokes over, drops;  // over everything
   float ground_opacity = 0;
   std::vector<std::string> notices;
+  bool remembers = false;       // what is mirrored may change
+  std::int64_t key_frames = 0;  // above 0: strokes take their colours at keys
+  bool follows = false;         // their colours follow
 };
 
 void WaterStage::Parts::add_surface(const WaterScene& water, const WaterSurfaceScene& surface, const KnownPoses& poses,
                                     double frames_per_s, std::span<const water::Solid> solids, double share) {
   auto piece = std::make_unique<Piece>(
-      Piece{surface.where, make_surface(surface, poses, frames_per_s), mirror_options(water), {}, {}, {}, {}, false});
+      Piece{surface.where, make_surface(surface, poses, frames_per_s), mirror_options(water), {}, {}});
   if (surface.colour) {
     const auto& c = *surface.colour;
     piece->mirror.water_colour = glm::vec3(c[0], c[1], c[2]);
@@ -75,7 +94,12 @@ void WaterStage::Parts::add_surface(const WaterScene& water, const WaterSurfaceS
   options.brush_places = brush_places(water, piece->surface, camera, poses, frames_per_s);
   options.strokes = std::max(1, static_cast<int>(std::lround(water.strokes * share)));
   using Colours = water::PaintingOptions::Colours;
-  piece->followed = options.colours == Colours::Followed;
+  piece->keys = options.colours == Colours::Keys && poses.still();
+  if (piece->keys) piece->block_frames = options.key_frames;
+  if (options.colours == Colours::Followed) piece->block_frames = reference_lasts;
+  remembers = remembers || water.mirror_plate || !poses.still();
+  if (options.colours == Colours::Keys) key_frames = options.key_frames;
+  if (options.colours == Colours::Followed) follows = true;
   std::optional<water::Outlook> outlook;
   if (poses.still()) outlook = {camera, *poses.at(0, frames_per_s)};
   std::vector<water::Segment> bodies;
@@ -121,18 +145,36 @@ void WaterStage::Parts::mirror_objects(const water::Surface& surface, const Rigi
 
 const water::ReferencePicture& WaterStage::Parts::reference(Piece& piece, const Frame& frame,
                                                             const RigidTransform& camera_from_world) {
-  const bool fresh = piece.reference_frame && *piece.reference_frame <= frame.number &&
-                     frame.number < *piece.reference_frame + (piece.followed ? reference_lasts : 1);
-  if (fresh) return piece.reference;
-  piece.reference_frame = frame.number;
+  const std::int64_t block = piece.block(frame.number);
+  Piece::Reference& kept_one = piece.of_block(block);
+  if (kept_one.block == block) return kept_one.picture;
+  kept_one.block = block;
   if (piece.mirror.plate && plate_frame != frame.number) {
     plates.make(frame, plate);
     plate_frame = frame.number;
   }
   mirror_objects(piece.surface, camera_from_world);
-  piece.reference.paint(piece.surface, camera, camera_from_world, piece.mirror, piece.mirror.plate ? &plate : nullptr,
-                        &mirrored, mirrored_step_px, reference_step_px);
-  return piece.reference;
+  kept_one.picture.paint(piece.surface, camera, camera_from_world, piece.mirror, piece.mirror.plate ? &plate : nullptr,
+                         &mirrored, mirrored_step_px, reference_step_px);
+  return kept_one.picture;
+}
+
+// As strokes' colours do it lies between the pictures of four blocks; those that a frame's keys were taken from.
+const water::ReferencePicture& WaterStage::Parts::ground(Piece& piece, std::int64_t frame) {
+  const std::int64_t last = piece.block(frame);
+  const water::ReferencePicture& newest = piece.of_block(last).picture;
+  if (!piece.keys || !(ground_opacity > 0)) return newest;
+  std::array<const water::ReferencePicture*, kept> pictures;
+  for (std::int64_t k = 0; k < kept; ++k) {
+    const std::int64_t block = std::max<std::int64_t>(0, last - (kept - 1) + k);
+    const Piece::Reference& one = piece.of_block(block);
+    // A camera may have left the block's frames out.
+    pictures[static_cast<std::size_t>(k)] = one.block == block ? &one.picture : &newest;
+  }
+  const std::int64_t since = frame - last * piece.block_frames;
+  piece.ground.mix(pictures,
+                   water::spline_weights(static_cast<double>(since) / static_cast<double>(piece.block_frames)));
+  return piece.ground;
 }
 
 WaterStage::WaterStage(const Scene& scene, const CameraModel& camera, double frames_per_s, Drawing& drawing)
@@ -172,13 +214,22 @@ void WaterStage::look(const Frame& frame, const RigidTransform& camera_from_worl
       return parts_->reference(*piece, frame, camera_from_world);
     };
     const water::Strokes& strokes = piece->painting->paint(frame.number, parts_->camera, camera_from_world, make);
-    parts_->painted.push_back({&piece->surface, strokes, &piece->reference, parts_->ground_opacity});
+    parts_->painted.push_back(
+        {&piece->surface, strokes, &parts_->ground(*piece, frame.number), parts_->ground_opacity});
     if (piece->waterline) piece->waterline->add(frame.number, parts_->camera, camera_from_world, parts_->over);
   }
   for (const water::SprayOptions& spray : parts_->sprays) {
     water::add_spray(spray, frame.number, parts_->camera, camera_from_world, parts_->drops);
   }
   parts_->pass->show(parts_->painted, parts_->over, parts_->drops);
+}
+
+std::int64_t WaterStage::first_remembered(std::int64_t frame) const {
+  if (!parts_->remembers) return frame;
+  std::int64_t first = frame;
+  if (parts_->key_frames > 0) first = (frame / parts_->key_frames - (kept - 1)) * parts_->key_frames;
+  if (parts_->follows) first = frame / reference_lasts * reference_lasts - (water::memory_frames + reference_lasts);
+  return std::max<std::int64_t>(0, first);
 }
 
 const std::vector<std::string>& WaterStage::notices() const { return parts_->notices; }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
@@ -24,6 +25,10 @@ class WaterStage {
 
   /// The strokes of this frame; `time_s` as in passes::View.
   void look(const Frame& frame, const RigidTransform& camera_from_world, double time_s);
+
+  /// The first frame that has to be looked at for a frame to look as it does after all frames before it: strokes take
+  /// their colours from what was mirrored up to four key frames ago, or some thirty frames where they follow.
+  std::int64_t first_remembered(std::int64_t frame) const;
 
   /// Where the flow can't follow the arrows.
   const std::vector<std::string>& notices() const;

@@ -12,6 +12,7 @@ std::span<const ListedSection> all_sections() {
       ListedSection{"foregrounds", "Mattes of filmed things", foreground_section},
       ListedSection{"outlines", "Lines", outline_section},
       ListedSection{"water", "Water", water_section},
+      ListedSection{"flicker", "Flicker of water", flicker_section},
       ListedSection{"whole", "The whole", whole_section},
       ListedSection{"left_out", "Leaving out", left_out_section},
       ListedSection{"extremes", "Extreme cases", extreme_section},

@@ -26,6 +26,9 @@ Section outline_section(const Settings& settings);
 /// Particles carried by a flow, by several integrators.
 Section water_section(const Settings& settings);
 
+/// How much painted water flickers, by several ways of colouring strokes.
+Section flicker_section(const Settings& settings);
+
 /// Whole programs against sizes, beside ffmpeg.
 Section whole_section(const Settings& settings);
 

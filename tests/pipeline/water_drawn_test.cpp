@@ -1,5 +1,6 @@
 // Painted water, the whole way of a frame.
 #include <algorithm>
+#include <cstdlib>
 
 #include "pipeline/gl/context.h"
 #include "tests/pipeline/made_by.h"
@@ -68,6 +69,41 @@ TEST(DrawnWater, TwoRendersAreIdenticalAndAPartIsThatOfTheWhole) {
     const auto x = test::samples(part[i]), y = test::samples(a[20 + i]);
     for (std::size_t k = 0; k < x.size(); ++k) ASSERT_NEAR(x[k], y[k], 1);
   }
+}
+
+// What is filmed is noise, so that each frame tells which one it mirrors.
+void expect_part_as_in_the_whole(const std::string& colours) {
+  const ShotFolder folder;
+  folder.noise_clip("in.mkv", small, 50);
+  std::string scene = water_scene;
+  scene.replace(scene.find("strokes = 400\n"), 14,
+                "strokes = 400\nmirror = { surroundings_m = 3 }\ncolours = " + colours + "\n");
+  scene += "[output]\nimages = \"unused/%d.png\"\ncontent = \"cg\"\n";
+  folder.render(scene, {.output = "whole.mkv", .codec = "ffv1", .overwrite = true});
+  const auto whole = folder.frames("whole.mkv");
+  std::int64_t mirrored = 0;
+  for (const std::int64_t first : {3, 26, 47}) {
+    const auto report = folder.render(
+        scene,
+        {.output = "part.mkv", .codec = "ffv1", .first_frame = first, .end_frame = first + 2, .overwrite = true});
+    EXPECT_EQ(report.frames, 2);
+    for (const StageReport& stage : report.stages) EXPECT_EQ(stage.times.count(), 2) << stage.name;
+    const auto part = folder.frames("part.mkv");
+    ASSERT_EQ(part.size(), 2u);
+    for (std::size_t i = 0; i < part.size(); ++i) {
+      const auto x = test::samples(part[i]), y = test::samples(whole[static_cast<std::size_t>(first) + i]);
+      for (std::size_t k = 0; k < x.size(); ++k) ASSERT_NEAR(x[k], y[k], 1) << colours << ", frame " << first;
+      const auto z = test::samples(whole[0]);
+      for (std::size_t k = 0; k < x.size(); ++k) mirrored += std::abs(x[k] - z[k]) > 8;
+    }
+  }
+  EXPECT_GT(mirrored, 1000);
+}
+
+TEST(DrawnWater, APartThatMirrorsWhatIsFilmedIsThatOfTheWhole) {
+  expect_part_as_in_the_whole("{ key_frames = 5 }");
+  expect_part_as_in_the_whole("{ method = \"followed\" }");
+  expect_part_as_in_the_whole("{ method = \"sampled\" }");
 }
 
 TEST(DrawnWater, StandsAroundObjectsAndMirrorsThem) {

@@ -1,17 +1,20 @@
-uniform sampler2DArray brushes;  // how much paint, how light
+uniform sampler2D brushes;  // an atlas: how much paint, how light
 
 #ifdef OWN_BRUSHES
-flat in vec4 shares;  // of the first layers
+flat in vec4 shares;  // of the first brushes
+flat in float next_brush;
 #endif
 flat in vec4 paint;
-noperspective in vec3 on_brush;
+noperspective in vec2 on_brush;
 
 layout(location = 0) out vec4 fragment;
 
 void main() {
 #ifdef OWN_BRUSHES
   vec2 brush = vec2(0.0, 128.0 / 255.0);
-  for (int i = 0; i < OWN_BRUSHES; ++i) brush.r += shares[i] * texture(brushes, vec3(on_brush.xy, i)).r;
+  for (int i = 0; i < OWN_BRUSHES; ++i) {
+    brush.r += shares[i] * texture(brushes, on_brush + vec2(float(i) * next_brush, 0.0)).r;
+  }
 #else
   vec2 brush = texture(brushes, on_brush).rg;
 #endif

@@ -7,25 +7,21 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/type_ptr.hpp>
 
-#include "embedded/stroke.frag.h"
-#include "embedded/stroke.vert.h"
 #include "embedded/surface.frag.h"
 #include "embedded/surface.vert.h"
-#include "pipeline/frame/error.h"
 
 namespace rinkaku::water {
 namespace {
 
-void attribute(GLuint array, GLuint location, GLint size, GLenum type, GLboolean normalised, std::size_t offset) {
+void attribute(GLuint array, GLuint location, std::size_t offset) {
   glEnableVertexArrayAttrib(array, location);
-  glVertexArrayAttribFormat(array, location, size, type, normalised, static_cast<GLuint>(offset));
+  glVertexArrayAttribFormat(array, location, 2, GL_FLOAT, GL_FALSE, static_cast<GLuint>(offset));
   glVertexArrayAttribBinding(array, location, 0);
 }
 
-gl::Program program(std::string_view name, std::string_view vertex, std::string_view fragment,
-                    std::span<const std::string_view> defines) {
-  const std::string_view vertex_parts[] = {vertex}, fragment_parts[] = {fragment};
-  return gl::Program(name, defines, vertex_parts, fragment_parts);
+gl::Program surface_program() {
+  const std::string_view vertex[] = {embedded::surface_vert}, fragment[] = {embedded::surface_frag};
+  return gl::Program("water", {}, vertex, fragment);
 }
 
 // The pixels of the picture within which a surface lies, cut off a little before the eye.
@@ -65,54 +61,18 @@ passes::PixelRect bounds(std::span<const Stroke> strokes) {
 
 }  // namespace
 
-gl::TextureHandle WaterPass::upload(const BrushSheet& sheet) {
-  GLuint name = 0;
-  glCreateTextures(GL_TEXTURE_2D_ARRAY, 1, &name);
-  gl::TextureHandle texture(name);
-  // Four channels though two are used: GL in software reads them faster.
-  glTextureStorage3D(name, 1, GL_RGBA8, sheet.width_px, sheet.height_px, sheet.layers);
-  if (glGetError() != GL_NO_ERROR) throw runtime_failure("OpenGL", "there is no memory for the water's brushes");
-  glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
-  glTextureSubImage3D(name, 0, 0, 0, 0, sheet.width_px, sheet.height_px, sheet.layers, GL_RG, GL_UNSIGNED_BYTE,
-                      sheet.texels.data());
-  glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
-  glTextureParameteri(name, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
-  glTextureParameteri(name, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
-  glTextureParameteri(name, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
-  glTextureParameteri(name, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
-  return texture;
-}
-
-WaterPass::StrokeProgram WaterPass::stroke_program(int own_brushes) {
-  static constexpr std::string_view counts[] = {"OWN_BRUSHES 1", "OWN_BRUSHES 2", "OWN_BRUSHES 3", "OWN_BRUSHES 4"};
-  StrokeProgram p;
-  p.program = program("stroke", embedded::stroke_vert, embedded::stroke_frag,
-                      own_brushes > 0 ? std::span(counts + own_brushes - 1, 1) : std::span<const std::string_view>());
-  p.near_m = p.program.uniform("near_m");
-  p.rect_px = p.program.uniform("rect_px");
-  p.size_px = p.program.uniform("size_px");
-  return p;
-}
-
 WaterPass::WaterPass(const BrushSheet& lines, const BrushSheet& drops, const BrushSheet& own)
-    : lines_(upload(lines)),
-      drops_(upload(drops)),
-      line_program_(stroke_program(0)),
-      surface_program_(program("water", embedded::surface_vert, embedded::surface_frag, {})),
-      stroke_array_(gl::make_vertex_array()),
+    : lines_(lines),
+      drops_(drops),
+      quads_(0),
+      surface_program_(surface_program()),
       surface_array_(gl::make_vertex_array()) {
   if (own.layers > 0) {
-    own_ = upload(own);
-    own_program_ = stroke_program(std::min(own.layers, 4));
+    own_.emplace(own);
+    own_quads_.emplace(std::min(own.layers, 4));
   }
-  const GLuint strokes = stroke_array_.name();
-  attribute(strokes, 0, 4, GL_FLOAT, GL_FALSE, offsetof(Stroke, middle_px));
-  attribute(strokes, 1, 3, GL_FLOAT, GL_FALSE, offsetof(Stroke, half_width_px));
-  attribute(strokes, 2, 4, GL_UNSIGNED_BYTE, GL_TRUE, offsetof(Stroke, colour));
-  attribute(strokes, 3, 4, GL_UNSIGNED_BYTE, GL_TRUE, offsetof(Stroke, blend));
-  glVertexArrayBindingDivisor(strokes, 0, 1);
-  attribute(surface_array_.name(), 0, 2, GL_FLOAT, GL_FALSE, offsetof(Corner, at));
-  attribute(surface_array_.name(), 1, 2, GL_FLOAT, GL_FALSE, offsetof(Corner, outwards));
+  attribute(surface_array_.name(), 0, offsetof(Corner, at));
+  attribute(surface_array_.name(), 1, offsetof(Corner, outwards));
   clip_from_surface_ = surface_program_.uniform("clip_from_surface");
   ground_opacity_ = surface_program_.uniform("ground_opacity");
   ground_place_ = surface_program_.uniform("ground_place");
@@ -139,23 +99,9 @@ passes::PixelRect WaterPass::look(const passes::View& view, const passes::PixelR
   return rect.empty() ? passes::PixelRect{} : rect;
 }
 
-void WaterPass::draw_strokes(std::span<const Stroke> strokes, const StrokeProgram& with, const gl::TextureHandle& sheet,
-                             const passes::PixelRect& rect, double near_m) {
-  if (strokes.empty()) return;
-  stroke_buffer_.write(std::as_bytes(strokes));
-  glVertexArrayVertexBuffer(stroke_array_.name(), 0, stroke_buffer_.name(), 0, sizeof(Stroke));
-  glUseProgram(with.program.name());
-  glUniform2f(with.rect_px, static_cast<float>(rect.x_px), static_cast<float>(rect.y_px));
-  glUniform2f(with.size_px, static_cast<float>(rect.width_px), static_cast<float>(rect.height_px));
-  glUniform1f(with.near_m, static_cast<float>(near_m));
-  glBindTextureUnit(0, sheet.name());
-  glBindVertexArray(stroke_array_.name());
-  glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, static_cast<GLsizei>(strokes.size()));
-}
-
 void WaterPass::upload_ground(const ReferencePicture& picture, Ground& ground) {
-  if (ground.version == picture.version() && ground.texture) return;
-  ground.version = picture.version();
+  if (ground.of == &picture && ground.version == picture.version() && ground.texture) return;
+  ground.of = &picture, ground.version = picture.version();
   if (!ground.texture || ground.width_px != picture.width_px() || ground.height_px != picture.height_px()) {
     ground.width_px = picture.width_px(), ground.height_px = picture.height_px();
     GLuint name = 0;
@@ -185,9 +131,9 @@ void WaterPass::draw_aside(const passes::View&, const passes::PixelRect& rect) {
   for (std::size_t i = 0; i < shown_.size(); ++i) {
     targets_[i].begin(rect.width_px, rect.height_px);
     if (own_) {
-      draw_strokes(shown_[i].strokes, own_program_, own_, rect, passes::near_m);
+      own_quads_->draw(shown_[i].strokes, *own_, rect, passes::near_m);
     } else {
-      draw_strokes(shown_[i].strokes, line_program_, lines_, rect, passes::near_m);
+      quads_.draw(shown_[i].strokes, lines_, rect, passes::near_m);
     }
   }
 }
@@ -234,8 +180,8 @@ void WaterPass::draw(const passes::View& view, const passes::PixelRect& rect) {
 }
 
 void WaterPass::draw_over(const passes::View& view, const passes::PixelRect& rect) {
-  draw_strokes(over_, line_program_, lines_, rect, view.nearest_m);
-  draw_strokes(drops_shown_, line_program_, drops_, rect, view.nearest_m);
+  quads_.draw(over_, lines_, rect, view.nearest_m);
+  quads_.draw(drops_shown_, drops_, rect, view.nearest_m);
 }
 
 }  // namespace rinkaku::water

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -11,6 +12,7 @@
 #include "pipeline/gl/texture_target.h"
 #include "pipeline/passes/scene_pass.h"
 #include "water/brushes.h"
+#include "water/pass/stroke_quads.h"
 #include "water/reference_picture.h"
 #include "water/strokes.h"
 #include "water/surface.h"
@@ -49,22 +51,17 @@ class WaterPass : public passes::ScenePass {
     glm::vec2 at{0};
     glm::vec2 outwards{0};  // in the plane; 0 but for a feather's rim
   };
-  struct StrokeProgram {
-    gl::Program program;
-    GLint rect_px = -1, size_px = -1, near_m = -1;
-  };
-  static StrokeProgram stroke_program(int own_brushes);
-  static gl::TextureHandle upload(const BrushSheet& sheet);
-  void draw_strokes(std::span<const Stroke> strokes, const StrokeProgram& program, const gl::TextureHandle& sheet,
-                    const passes::PixelRect& rect, double near_m);
 
-  gl::TextureHandle lines_, drops_, own_;
-  StrokeProgram line_program_, own_program_;
+  Brushes lines_, drops_;
+  std::optional<Brushes> own_;
+  StrokeQuads quads_;
+  std::optional<StrokeQuads> own_quads_;
   gl::Program surface_program_;
-  gl::VertexArrayHandle stroke_array_, surface_array_;
-  gl::StreamBuffer stroke_buffer_, surface_buffer_;
+  gl::VertexArrayHandle surface_array_;
+  gl::StreamBuffer surface_buffer_;
   struct Ground {
     gl::TextureHandle texture;
+    const ReferencePicture* of = nullptr;  // which picture the texture holds, in which version
     int width_px = 0, height_px = 0, version = -1;
   };
   void upload_ground(const ReferencePicture& picture, Ground& ground);

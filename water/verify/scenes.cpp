@@ -1,4 +1,4 @@
-#include "bench/water_scenes.h"
+#include "water/verify/scenes.h"
 
 #include <cmath>
 #include <cstdint>
@@ -6,9 +6,7 @@
 
 #include "water/scatter.h"
 
-namespace rinkaku::bench {
-
-using namespace rinkaku::water;
+namespace rinkaku::water {
 
 namespace {
 
@@ -92,4 +90,4 @@ ReferencePicture reference_of(const River& river) {
   return reference;
 }
 
-}  // namespace rinkaku::bench
+}  // namespace rinkaku::water

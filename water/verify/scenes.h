@@ -12,19 +12,19 @@
 #include "water/stroke_size.h"
 #include "water/surface.h"
 
-namespace rinkaku::bench {
+namespace rinkaku::water {
 
 /// Water that fills a picture of 400 x 400, seen from a bank.
 struct River {
   /// Looking along +y, so many degrees down, from 3 m above the water.
   explicit River(double down_deg);
   void set_arrows(std::span<const std::array<double, 4>> px);
-  water::Outlook outlook() const { return {camera, camera_from_world}; }
+  Outlook outlook() const { return {camera, camera_from_world}; }
 
   CameraModel camera{400, 400, 360, 360, 199.5, 199.5, {}};
   RigidTransform camera_from_world;
-  std::unique_ptr<water::Surface> surface;
-  std::vector<water::ArrowKey> arrows;
+  std::unique_ptr<Surface> surface;
+  std::vector<ArrowKey> arrows;
 };
 
 /// Two shores, inflow on the left, outflow on the right.
@@ -33,6 +33,6 @@ River river_scene();
 River pond_scene();
 
 /// What such water mirrors: trees and clouds all around, made of noise.
-water::ReferencePicture reference_of(const River& river);
+ReferencePicture reference_of(const River& river);
 
-}  // namespace rinkaku::bench
+}  // namespace rinkaku::water
