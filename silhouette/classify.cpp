@@ -26,10 +26,8 @@ TrianglePlanes triangle_planes(const Surface& surface) {
     const glm::dvec3 b = surface.frame.to_unit(surface.points[v.y]);
     const glm::dvec3 c = surface.frame.to_unit(surface.points[v.z]);
     const glm::dvec3 cross = glm::cross(b - a, c - a);
-    const double twice_area = glm::length(cross);
     const double longest_sq = std::max({glm::dot(b - a, b - a), glm::dot(c - b, c - b), glm::dot(a - c, a - c)});
-    glm::dvec3 normal(0);
-    if (twice_area >= kLeastAltitude * longest_sq && twice_area > 0) normal = cross / twice_area;
+    const glm::dvec3 normal = longest_sq > 0 ? cross / longest_sq : glm::dvec3(0);
     out.x[t] = normal.x;
     out.y[t] = normal.y;
     out.z[t] = normal.z;
@@ -42,7 +40,7 @@ TrianglePlanes triangle_planes(const Surface& surface) {
 void classify(const TrianglePlanes& planes, const ViewRegion& region, std::vector<Side>& out) {
   const std::size_t count = planes.x.size();
   out.resize(count);
-  std::array<double, kBlock> least;  // over hull vertices: the sine over the plane, its sign kept
+  std::array<double, kBlock> least;  // over hull vertices: how flat the triangle looks, squared, the side's sign kept
   std::array<double, kBlock> most;
   for (std::size_t first = 0; first < count; first += kBlock) {
     const std::size_t size = std::min(kBlock, count - first);
@@ -56,14 +54,14 @@ void classify(const TrianglePlanes& planes, const ViewRegion& region, std::vecto
         const double dx = h.x - h.w * corner.x;
         const double dy = h.y - h.w * corner.y;
         const double dz = h.z - h.w * corner.z;
-        const double sine_sq = height * std::abs(height) / (dx * dx + dy * dy + dz * dz);
-        least[i] = std::min(least[i], sine_sq);
-        most[i] = std::max(most[i], sine_sq);
+        const double flat_sq = height * std::abs(height) / (dx * dx + dy * dy + dz * dz);
+        least[i] = std::min(least[i], flat_sq);
+        most[i] = std::max(most[i], flat_sq);
       }
     }
     for (std::size_t i = 0; i < size; ++i) {
-      const bool front = least[i] >= kMargin * kMargin;
-      const bool back = most[i] <= -kMargin * kMargin;
+      const bool front = least[i] >= kFlattest * kFlattest;
+      const bool back = most[i] <= -kFlattest * kFlattest;
       out[first + i] = front ? Side::Front : back ? Side::Back : Side::Silhouette;
     }
   }

@@ -19,7 +19,7 @@ class EyeHull {
     glm::dvec3 sum(0);
     for (const glm::dvec4& h : region.hull) {
       sum += glm::normalize(glm::dvec3(h));
-      vertices_.push_back({glm::dvec3(h), h.w, kMargin * (glm::length(glm::dvec3(h)) + h.w)});
+      vertices_.push_back({glm::dvec3(h), h.w, kFlattest * (glm::length(glm::dvec3(h)) + h.w)});
     }
     middle_ = glm::length(sum) > 0 ? glm::normalize(sum) : glm::dvec3(0, 0, 1);
   }
@@ -27,15 +27,17 @@ class EyeHull {
   /// Roughly where the eyes are: a unit vector.
   const glm::dvec3& middle() const { return middle_; }
 
-  /// Whether a triangle through `corner` (inside the unit sphere), with `normal` times any `length`, faces every hull
-  /// vertex with the margin that classify() asks for.
-  bool sees_front(const glm::dvec3& corner, const glm::dvec3& normal, double length) const {
+  /// Whether a triangle with a corner there (inside the unit sphere), the cross product `normal` of two edges and the
+  /// longest edge's square faces every hull vertex, and looks no flatter than classify() asks for.
+  bool sees_front(const glm::dvec3& corner, const glm::dvec3& normal, double longest_sq) const {
     const double offset = glm::dot(normal, corner);
     for (const Vertex& v : vertices_) {
       const double height = glm::dot(normal, v.place) - v.w * offset;
-      if (height >= v.enough * length) continue;  // further than the margin at the longest possible distance
+      if (height <= 0) return false;
+      if (height >= v.enough * longest_sq) continue;  // enough at the longest possible distance
       const glm::dvec3 way = v.place - v.w * corner;
-      if (height <= 0 || height * height < kMargin * kMargin * length * length * glm::dot(way, way)) return false;
+      const double enough = kFlattest * longest_sq;
+      if (height * height < enough * enough * glm::dot(way, way)) return false;
     }
     return true;
   }

@@ -11,7 +11,7 @@
 namespace rinkaku::silhouette {
 
 /// The decimater's rule that keeps coverage: every triangle that a collapse makes faces all hull vertices of the view
-/// region, and none is flatter than kLeastAltitude. Gives collapses with well-shaped triangles the lower cost.
+/// region, and none looks flatter than kFlattest. Gives collapses with well-shaped triangles the lower cost.
 template <typename MeshT>
 class FrontFacingModule : public OpenMesh::Decimater::ModBaseT<MeshT> {
  public:
@@ -38,12 +38,9 @@ class FrontFacingModule : public OpenMesh::Decimater::ModBaseT<MeshT> {
       const glm::dvec3 at = target - a;
       const glm::dvec3 bt = target - b;
       const glm::dvec3 normal = glm::cross(ab, at);
-      const double area_sq = glm::dot(normal, normal);
       const double longest_sq = std::max({glm::dot(ab, ab), glm::dot(at, at), glm::dot(bt, bt)});
-      const double flat_sq = area_sq / (longest_sq * longest_sq);
-      if (!(flat_sq >= kLeastAltitude * kLeastAltitude)) return float(Base::ILLEGAL_COLLAPSE);
-      if (!hull_->sees_front(a, normal, std::sqrt(area_sq))) return float(Base::ILLEGAL_COLLAPSE);
-      flattest_sq = std::min(flattest_sq, flat_sq);
+      if (!hull_->sees_front(a, normal, longest_sq)) return float(Base::ILLEGAL_COLLAPSE);
+      flattest_sq = std::min(flattest_sq, glm::dot(normal, normal) / (longest_sq * longest_sq));
       spoke = next;
       a = b;
     }

@@ -57,10 +57,10 @@ inline bool can_show(const Surface& surface, const RegionMeshes& meshes, std::si
 /// Reduces a surface for one region after the other, reusing its memory.
 ///
 /// The front mesh (all triangles that face every eye of the region) is collapsed half-edge by half-edge with its
-/// boundary fixed, every new triangle facing every hull vertex and no flatter than 0.01; the silhouette mesh stays as
-/// it is; the back mesh is dropped. Coverage then can't change: the number of front-facing layers over a pixel is the
-/// winding number of the front mesh's boundary.
-/// Utsugi et al., "A polygon reduction maintaining silhouettes" (2002), 2.4.
+/// boundary fixed, every new triangle facing every hull vertex, none looking flatter than kFlattest; the silhouette
+/// mesh stays as it is; the back mesh is dropped. Coverage then can't change: the number of front-facing layers over a
+/// pixel is the winding number of the front mesh's boundary. Utsugi et al., "A polygon reduction maintaining
+/// silhouettes" (2002), 2.4.
 class Reducer {
  public:
   /// Keeps a reference to the surface. Cost: about 0.2 microseconds a triangle.

@@ -11,10 +11,8 @@ namespace {
 bool may_be(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c, const EyeHull& hull) {
   const glm::dvec3 ab = b - a, ac = c - a, bc = c - b;
   const glm::dvec3 normal = glm::cross(ab, ac);
-  const double area_sq = glm::dot(normal, normal);
   const double longest_sq = std::max({glm::dot(ab, ab), glm::dot(ac, ac), glm::dot(bc, bc)});
-  if (!(area_sq >= kLeastAltitude * kLeastAltitude * longest_sq * longest_sq && area_sq > 0)) return false;
-  return hull.sees_front(a, normal, std::sqrt(area_sq));
+  return hull.sees_front(a, normal, longest_sq);
 }
 
 // Turns the edge over if the other diagonal of its two triangles is shorter and both new ones may be.

@@ -1,5 +1,7 @@
 #include "silhouette/classify.h"
 
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 #include "tests/silhouette/surfaces.h"
@@ -65,38 +67,38 @@ TEST(Classify, SilhouetteTrianglesAreThoseWhosePlaneCutsTheHull) {
   for (const std::size_t count : counts) EXPECT_GT(count, sides.size() / 20);
 }
 
-TEST(Classify, EyeNearAPlaneIsDoubtfulByTheSineOfItsAngle) {
-  // The square faces +z; a tiny region above it, seen at a grazing angle, over the origin's corner.
-  const Surface surface = surface_of(test::square());
-  const auto tiny_region_at = [&](double sine) {
-    // The margin is measured from a corner: the same angle from all of them, far away.
-    ViewRegion region;
-    const double size = 1e-9;
-    const glm::dvec3 eye = 1e4 * glm::dvec3(std::sqrt(1 - sine * sine), 0, sine);
-    for (const glm::dvec3& d : {glm::dvec3(0), glm::dvec3(1, 0, 0), glm::dvec3(0, 1, 0), glm::dvec3(0, 0, 1)}) {
-      region.hull.emplace_back(eye + size * d, 1);
-    }
-    return region;
-  };
-  // A radius beside 1e4 radii: 1e-4 of the angle.
-  EXPECT_EQ(sides_of(surface, tiny_region_at(kMargin * 1.01))[0], Side::Front);
-  EXPECT_EQ(sides_of(surface, tiny_region_at(kMargin * 0.99))[0], Side::Silhouette);
-  EXPECT_EQ(sides_of(surface, tiny_region_at(-kMargin * 0.99))[0], Side::Silhouette);
-  EXPECT_EQ(sides_of(surface, tiny_region_at(-kMargin * 1.01))[0], Side::Back);
+// A region of a billionth of the eye's distance, 1e4 radii off, at this sine of the angle over the plane z = 0. A
+// radius beside 1e4 radii is 1e-4 of the angle.
+ViewRegion tiny_region_at(double sine) {
+  ViewRegion region;
+  const glm::dvec3 eye = 1e4 * glm::dvec3(std::sqrt(1 - sine * sine), 0, sine);
+  for (const glm::dvec3& d : {glm::dvec3(0), glm::dvec3(1, 0, 0), glm::dvec3(0, 1, 0), glm::dvec3(0, 0, 1)}) {
+    region.hull.emplace_back(eye + 1e-9 * d, 1);
+  }
+  return region;
 }
 
-TEST(Classify, SliversAreDoubtfulFromEverywhere) {
+TEST(Classify, EyeNearAPlaneIsDoubtfulByTheSineOfItsAngle) {
+  const Surface surface = surface_of(test::square());  // faces +z
+  const double sine = kFlattest / 0.5;                 // half a square's altitude is half its longest edge
+  EXPECT_EQ(sides_of(surface, tiny_region_at(sine * 1.02))[0], Side::Front);
+  EXPECT_EQ(sides_of(surface, tiny_region_at(sine * 0.98))[0], Side::Silhouette);
+  EXPECT_EQ(sides_of(surface, tiny_region_at(-sine * 0.98))[0], Side::Silhouette);
+  EXPECT_EQ(sides_of(surface, tiny_region_at(-sine * 1.02))[0], Side::Back);
+}
+
+TEST(Classify, SliverIsDoubtfulByHowFlatItLooks) {
+  // Altitude 0.02 of the longest edge: too flat where the sine is below a fiftieth of that of a triangle as high as
+  // wide.
   test::Soup soup;
-  soup.positions = {{0, 0, 0}, {1, 0, 0}, {0.5f, 0.0099f, 0}, {0, 0, 1}, {1, 0, 1}, {0.5f, 0.0101f, 1}, {2, 0, 0}};
-  soup.triangles = {{0, 1, 2}, {3, 4, 5}, {0, 1, 6}};
+  soup.positions = {{0, 0, 0}, {1, 0, 0}, {0.5f, 0.02f, 0}};
+  soup.triangles = {{0, 1, 2}};
   const Surface surface = surface_of(test::one_part(soup));
-  const ViewRegion above = view_region(RegionLayout{1, 1, 2.0}, 4);
-  const std::vector<Side> sides = sides_of(surface, above);
-  ASSERT_EQ(sides.size(), 3u);
-  for (std::size_t t = 0; t < 3; ++t) {
-    const bool the_wider = surface.points[surface.triangles[t].x].z == 1;
-    EXPECT_EQ(sides[t], the_wider ? Side::Front : Side::Silhouette);
-  }
+  const double sine = kFlattest / 0.02;
+  EXPECT_EQ(sides_of(surface, tiny_region_at(sine * 1.02))[0], Side::Front);
+  EXPECT_EQ(sides_of(surface, tiny_region_at(sine * 0.98))[0], Side::Silhouette);
+  soup.positions[2].y = static_cast<float>(kFlattest * 0.98);
+  EXPECT_EQ(sides_of(surface_of(test::one_part(soup)), tiny_region_at(1))[0], Side::Silhouette);
 }
 
 }  // namespace
