@@ -154,10 +154,10 @@ constexpr std::array kKinds{Kind{"meyer", on_cpu<outline::CurvatureMethod::Meyer
                             Kind{"icnc", on_cpu<outline::CurvatureMethod::Icnc>},
                             Kind{"auto", on_cpu<outline::CurvatureMethod::Auto>},
                             Kind{"quadric", on_cpu<outline::CurvatureMethod::Quadric>},
-                            Kind{"meyer, plain float", plain_cotangents<float>},
-                            Kind{"meyer, plain double", plain_cotangents<double>},
-                            Kind{"icnc, plain float", plain_corrected<float>},
-                            Kind{"icnc, plain double", plain_corrected<double>},
+                            Kind{"meyer plain float", plain_cotangents<float>},
+                            Kind{"meyer plain double", plain_cotangents<double>},
+                            Kind{"icnc plain float", plain_corrected<float>},
+                            Kind{"icnc plain double", plain_corrected<double>},
                             kOnGpu};
 
 struct Measured {
