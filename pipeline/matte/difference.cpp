@@ -143,6 +143,7 @@ void DifferenceMatte::estimate(const Frame& frame, Matte& matte) {
   options.threshold = static_cast<float>(s.options.threshold);
   options.deepest_shadow = static_cast<float>(s.options.deepest_shadow);
   options.least_px = static_cast<int>(s.options.least_part * static_cast<double>(s.small.total()));
+  options.find_faint = !s.learnt;  // a learnt background keeps traces of the thing
   s.rough.find(s.small, s.small_background, s.light, options);
   if (!s.learnt) s.keep_up(picture);
   cv::resize(s.rough.mask(), s.mask, {picture.width_px(), picture.height_px()}, 0, 0, cv::INTER_LINEAR);

@@ -77,16 +77,16 @@ void KnownBackground::solve(const Picture& picture, const cv::Mat& rough, const 
       const float length2 = way[0] * way[0] + chroma2 * (way[1] * way[1] + way[2] * way[2]);
       const float along = (way[0] * gone[0] + chroma2 * (way[1] * gone[1] + way[2] * gone[2])) / std::max(length2, 1.f);
       const float beside = (d[x] - options.noise) /
-                           std::max({0.85f * m[x] - options.noise, 0.5f * std::sqrt(length2), 2 * options.noise});
+                           std::max({0.86f * m[x] - options.noise, 0.5f * std::sqrt(length2), 2 * options.noise});
       // Each errs towards too little: by colour where the thing is of several colours, by strength where it is faint.
       const auto [less, more] = std::minmax({std::clamp(along, 0.f, 1.f), std::clamp(beside, 0.f, 1.f)});
-      const float by_colour = 0.35f * less + 0.65f * more;
+      const float by_colour = 0.3f * less + 0.7f * more;
       const float contrast = std::max(m[x], std::sqrt(length2));
-      const float trust = std::clamp((contrast - 3 * options.noise) / (5 * options.noise), 0.f, 1.f);
+      const float trust = std::clamp((contrast - 2 * options.noise) / (5 * options.noise), 0.f, 1.f);
       out[x] = level(255 * trust * by_colour + (1 - trust) * soft[x]);
     }
   }
-  cv::medianBlur(alpha.clone(), alpha, 3);
+  cv::medianBlur(alpha.clone(), alpha, 5);
   for (int y = 0; y < mask.rows; ++y) {
     const auto *p = seen_.ptr<cv::Vec3f>(y), *b = behind.ptr<cv::Vec3f>(y);
     const auto* a = alpha.ptr<std::uint8_t>(y);

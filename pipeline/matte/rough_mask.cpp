@@ -14,6 +14,8 @@ constexpr float luma_noise = 6, shaded_chroma_noise = 3, texture_noise = 5;
 constexpr float most_light = 1.35f;
 // Of the threshold: what is enough beside the thing, and what a hole may have on average.
 constexpr float weak_part = 0.65f, hole_part = 0.35f;
+// What is faint: so many times what the background itself differs by there, but at least this part of the threshold.
+constexpr float times_background = 6, faint_part = 0.22f;
 
 }  // namespace
 
@@ -87,11 +89,36 @@ void RoughMask::measure(const cv::Mat& picture, const cv::Mat& background, const
   }
 }
 
+// Parts of the thing that hardly differ from what is behind them: where the threshold is met by far, yet all around the
+// background is met much better still. They lie against what is sure, and are thicker than the sure parts' soft
+// borders, which differ as little.
+void RoughMask::find_faint(const cv::Mat& sure, const Options& options) {
+  const cv::Mat cross = cv::getStructuringElement(cv::MORPH_CROSS, {3, 3});
+  const cv::Mat wide = cv::getStructuringElement(cv::MORPH_RECT, {13, 13});
+  const cv::Size around(61, 61);
+  cv::dilate(sure, faint_, wide);
+  faint_.convertTo(weight_, CV_32F, -1.0 / 255, 1 + 1e-6);
+  cv::multiply(distance_, weight_, weighted_);
+  cv::boxFilter(weighted_, weighted_, CV_32F, around);
+  cv::boxFilter(weight_, weight_, CV_32F, around);
+  cv::divide(weighted_, weight_, weighted_, times_background);
+  const cv::Mat enough = cv::max(weighted_, faint_part * options.threshold), differs = distance_ > enough;
+  cv::dilate(sure, faint_, cv::getStructuringElement(cv::MORPH_RECT, {3, 3}));
+  faint_ = differs & ~faint_;
+  cv::morphologyEx(faint_, faint_, cv::MORPH_OPEN, cross);
+  cv::dilate(faint_, faint_, cv::getStructuringElement(cv::MORPH_RECT, {5, 5}));
+  faint_ &= differs;
+}
+
 void RoughMask::clean_up(const Options& options) {
   cv::Mat above = distance_ > options.threshold;
   cv::morphologyEx(above, above, cv::MORPH_OPEN, cv::getStructuringElement(cv::MORPH_RECT, {3, 3}));
   // Beside what is surely not background less is asked.
   cv::Mat near, weak = distance_ > weak_part * options.threshold;
+  if (options.find_faint) {
+    find_faint(above | weak, options);
+    weak |= faint_;
+  }
   cv::morphologyEx(weak, weak, cv::MORPH_OPEN, cv::getStructuringElement(cv::MORPH_RECT, {3, 3}));
   cv::dilate(above, near, cv::getStructuringElement(cv::MORPH_ELLIPSE, {17, 17}));
   above |= weak & near;

@@ -13,6 +13,7 @@ class RoughMask {
     float threshold = 2.5f;       ///< in units of what noise does
     float deepest_shadow = 0.6f;  ///< what is left of the light
     int least_px = 100;           ///< smaller pieces are dropped
+    bool find_faint = false;      ///< also parts that hardly differ: of use if the background is known well
   };
 
   /// Both pictures CV_32FC3 of one size: luma above black, Cb and Cr from their middle. `light` follows.
@@ -26,12 +27,13 @@ class RoughMask {
  private:
   void follow_light(const cv::Mat& picture, const cv::Mat& background, LightField& light);
   void measure(const cv::Mat& picture, const cv::Mat& background, const LightField& light, const Options& options);
+  void find_faint(const cv::Mat& sure, const Options& options);
   void clean_up(const Options& options);
   void fill_shade();
 
   cv::Mat mask_, shade_;
   cv::Mat luma_, background_luma_, usable_, expected_, light_now_, light_then_;
-  cv::Mat residual_, smooth_, texture_, distance_, labels_, stats_, centres_, weight_, weighted_;
+  cv::Mat residual_, smooth_, texture_, distance_, labels_, stats_, centres_, weight_, weighted_, faint_;
 };
 
 }  // namespace rinkaku::matte
