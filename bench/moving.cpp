@@ -19,7 +19,9 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "mesh/assemble.h"
+#include "mesh/bounds.h"
 #include "mesh/contour.h"
+#include "mesh/moving_mesh.h"
 #include "mesh/topology.h"
 #include "outline/line_width.h"
 #include "outline/pass/hull_pass.h"
@@ -103,6 +105,12 @@ mesh::Rig carried(mesh::Rig rig) {
   return rig;
 }
 
+double processor_ms() {
+  timespec now{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) * 1e3 + static_cast<double>(now.tv_nsec) * 1e-6;
+}
+
 class Drawn {
  public:
   Drawn(const Rigged& rigged, Case which) {
@@ -164,11 +172,6 @@ class Drawn {
     }
     factors_.resize(topology.points.size());
   }
-  static double processor_ms() {
-    timespec now{};
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-    return static_cast<double>(now.tv_sec) * 1e3 + static_cast<double>(now.tv_nsec) * 1e-6;
-  }
   std::vector<glm::vec3> points_;
   std::shared_ptr<outline::CurvatureWidths> followed_;
   bool every_frame_ = false;
@@ -177,6 +180,42 @@ class Drawn {
   std::unique_ptr<passes::LayerRenderer> renderer_;
   passes::Layer layer_;
 };
+
+// What a frame's stages take one by one: bending points and normals, the faces' planes, finding the contour, curvature
+// and widths along it, and, to compare, those of all points.
+void measure_stages(const Rigged& rigged, int frames) {
+  const mesh::Topology topology = mesh::topology(rigged.mesh);
+  mesh::MovingMesh moving(rigged.mesh, topology, rigged.rig, {});
+  mesh::ContourFinder finder(rigged.mesh, topology);
+  outline::CurvatureWidths widths(topology, {});
+  std::vector<float> factors(topology.points.size());
+  std::vector<std::uint32_t> wanted;
+  std::array<std::vector<double>, 5> times;
+  for (int f = 0; f < frames; ++f) {
+    std::array<double, 6> at{processor_ms()};
+    moving.move_to(f / 30.0);
+    const std::span<const glm::vec3> points = moving.skin().points();
+    at[1] = processor_ms();
+    finder.move(topology.faces, points, mesh::bounding_box(points));
+    at[2] = processor_ms();
+    const mesh::Contour& contour = finder.find(glm::dvec3(0, 1, 4.4));
+    at[3] = processor_ms();
+    wanted.clear();
+    for (const std::uint32_t edge : contour.edges) {
+      wanted.insert(wanted.end(), {topology.edges[edge].a, topology.edges[edge].b});
+    }
+    widths.at(points, wanted, factors);
+    at[4] = processor_ms();
+    widths.at(points);
+    at[5] = processor_ms();
+    for (std::size_t s = 0; s < times.size(); ++s) times[s].push_back(at[s + 1] - at[s]);
+  }
+  for (std::vector<double>& stage : times) {
+    std::nth_element(stage.begin(), stage.begin() + frames / 2, stage.end());
+    std::printf(" %9.3f", stage[static_cast<std::size_t>(frames / 2)]);
+  }
+  std::printf("\n");
+}
 
 void measure(int around, int along, int frames) {
   const Rigged rigged = bending_cylinder(around, along);
@@ -198,8 +237,9 @@ void measure(int around, int along, int frames) {
   }
   std::printf("%9u", rigged.mesh.point_count);
   for (const double ms : median) std::printf(" %13.2f", ms);
-  std::printf(" %12.3f %12.3f %15.3f %13.3f\n", median[Uniform] / median[Once], median[Once] / median[EveryFrame],
+  std::printf(" %12.3f %12.3f %15.3f %13.3f", median[Uniform] / median[Once], median[Once] / median[EveryFrame],
               median[Carried] / median[Skinned], median[EveryFrame] / median[Skinned]);
+  measure_stages(rigged, frames);
 }
 
 }  // namespace
@@ -207,9 +247,10 @@ void measure(int around, int along, int frames) {
 int main(int count, char** arguments) {
   const double least_points = count > 1 ? std::atof(arguments[1]) : 0;
   const auto context = gl::Context::headless();
-  std::printf("%9s", "vertices");
+  std::printf("milliseconds a frame; then what the stages of a skinned one take by themselves\n%9s", "vertices");
   for (const char* name : names) std::printf(" %13s", name);
-  std::printf(" %12s %12s %15s %13s\n", "once/uniform", "every/once", "skinned/carried", "skinned/every");
+  std::printf(" %12s %12s %15s %13s", "once/uniform", "every/once", "skinned/carried", "skinned/every");
+  std::printf(" %9s %9s %9s %9s %9s\n", "skinning", "planes", "contour", "widths", "all widths");
   // Close to the thesis's vertex counts: 485, 2419, 4250, 10149, 15859, 22226, 28741, 63576.
   const int sizes[][3] = {{21, 22, 400},   {49, 48, 300},  {65, 64, 200},  {101, 100, 100},
                           {126, 125, 100}, {149, 148, 60}, {170, 168, 60}, {252, 252, 40}};

@@ -6,19 +6,21 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <ctime>
 #include <functional>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
 #include <glm/gtc/matrix_transform.hpp>
 
+#include "mesh/contour.h"
 #include "mesh/topology.h"
 #include "outline/control_points.h"
-#include "outline/curvature.h"
 #include "outline/line_width.h"
 #include "pipeline/frame/error.h"
 #include "pipeline/gl/context.h"
@@ -42,7 +44,8 @@ mesh::Mesh ring(std::size_t vertices) {
 struct Way {
   std::string name;
   std::unique_ptr<passes::LayerRenderer> renderer;
-  std::function<void()> before_each_frame;
+  std::function<void(std::span<const std::uint32_t> contour)>
+      before_each_frame;  ///< points that the contour runs through
   std::vector<double> ms{};
 };
 
@@ -63,6 +66,13 @@ std::unique_ptr<passes::LayerRenderer> renderer_of(const mesh::Mesh& mesh,
   return pipeline::lone_mesh(mesh, glm::dmat4(1), {}, line, {0, 0, kWidth_px, kHeight_px});
 }
 
+// As objects that move do it: along the contour, and as far around it as smoothing reaches.
+template <class Widths>
+auto anew_each_frame(std::shared_ptr<mesh::Topology> topology, std::shared_ptr<Widths> widths) {
+  return [topology, widths, factors = std::vector<float>(topology->points.size())](
+             std::span<const std::uint32_t> contour) mutable { widths->at(topology->points, contour, factors); };
+}
+
 std::vector<Way> ways_for(const mesh::Mesh& mesh) {
   std::vector<Way> ways;
   for (const pipeline::NamedMethod& named : pipeline::line_methods()) {
@@ -70,25 +80,23 @@ std::vector<Way> ways_for(const mesh::Mesh& mesh) {
     line.method = named.method;
     line.taper_px = pipeline::usual_taper_px(named.method);
     if (pipeline::brings_inner_lines(named.method)) line.style.inner.emplace();
-    ways.push_back({named.word, renderer_of(mesh, line), [] {}});
+    ways.push_back({named.word, renderer_of(mesh, line), [](auto) {}});
     if (named.method == pipeline::LineMethod::Control) {
       // The thesis's chapter 3 with a shape that changes every frame: features and their widths anew.
       auto topology = std::make_shared<mesh::Topology>(mesh::topology(mesh));
       auto widths = std::make_shared<outline::ControlWidths>(pipeline::control_widths(line, *topology, glm::dmat4(1)));
-      ways.push_back(
-          {"control each frame", renderer_of(mesh, line), [topology, widths] { widths->at(topology->points); }});
+      ways.push_back({"control each frame", renderer_of(mesh, line), anew_each_frame(topology, widths)});
     }
     if (named.method != pipeline::LineMethod::Curvature) continue;
     // What a shape that changes every frame costs more: its curvature, and the widths that follow it.
     auto topology = std::make_shared<mesh::Topology>(mesh::topology(mesh));
-    auto solver = std::make_shared<outline::CurvatureSolver>(*topology, outline::CurvatureMethod::Icnc);
-    ways.push_back({"curvature each frame", renderer_of(mesh, line), [topology, solver] {
-                      const outline::Curvature& found = solver->solve(topology->points);
-                      const double k95 = outline::k95(found);
-                      outline::line_width_factors(*topology, found, k95, {});
-                    }});
+    auto widths = std::make_shared<outline::CurvatureWidths>(*topology, outline::WidthOptions{});
+    ways.push_back({"curvature each frame", renderer_of(mesh, line), anew_each_frame(topology, widths)});
+    // The same everywhere, and not only along the contour.
+    ways.push_back(
+        {"curvature of all", renderer_of(mesh, line), [topology, widths](auto) { widths->at(topology->points); }});
   }
-  ways.push_back({"none", renderer_of(mesh, std::nullopt), [] {}});
+  ways.push_back({"none", renderer_of(mesh, std::nullopt), [](auto) {}});
   return ways;
 }
 
@@ -107,13 +115,20 @@ double median(std::vector<double> values) {
 void measure(std::size_t vertices, int frames, bool header) {
   const mesh::Mesh mesh = ring(vertices);
   std::vector<Way> ways = ways_for(mesh);
+  const mesh::Topology topology = mesh::topology(mesh);
+  mesh::ContourFinder finder(mesh, topology);
+  std::vector<std::uint32_t> contour;
   passes::Layer layer;
   constexpr int warm = 3;
   for (int frame = 0; frame < frames + warm; ++frame) {
     const passes::View view = view_of(frame);
+    contour.clear();
+    for (const std::uint32_t e : finder.find(inverse(view.camera_from_world).translation_m).edges) {
+      contour.insert(contour.end(), {topology.edges[e].a, topology.edges[e].b});
+    }
     for (Way& way : ways) {
       const double start_ms = cpu_ms();
-      way.before_each_frame();
+      way.before_each_frame(contour);
       way.renderer->draw(view, layer);
       if (frame >= warm) way.ms.push_back(cpu_ms() - start_ms);
     }

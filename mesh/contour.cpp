@@ -5,8 +5,6 @@
 
 #include <glm/geometric.hpp>
 
-#include "mesh/bounds.h"
-
 namespace rinkaku::mesh {
 
 ContourFinder::ContourFinder(const Mesh& mesh, const Topology& topology, const ContourOptions& options)
@@ -57,10 +55,9 @@ ContourFinder::ContourFinder(const Mesh& mesh, const Topology& topology, const C
   front_parts_.resize(parts_.size());
 }
 
-void ContourFinder::move(std::span<const glm::uvec3> faces, std::span<const glm::vec3> points) {
-  const Sphere sphere = bounding_sphere(points);
-  origin_ = sphere.centre;
-  radius_ = sphere.radius;
+void ContourFinder::move(std::span<const glm::uvec3> faces, std::span<const glm::vec3> points, const Box& box) {
+  origin_ = box.centre();
+  radius_ = glm::distance(glm::dvec3(box.max), origin_);
   move_planes(faces, points);
   if (!flat_faces_.empty()) borrow_normals(faces, points);
 }
@@ -70,9 +67,9 @@ void ContourFinder::move_planes(std::span<const glm::uvec3> faces, std::span<con
   const glm::vec3 origin(origin_);
   flat_faces_.clear();
   for (std::size_t f = 0; f < faces.size(); ++f) {
-    const glm::vec3 a = points[faces[f].x] - origin;
-    const glm::vec3 u = points[faces[f].y] - origin - a, v = points[faces[f].z] - origin - a;
-    const glm::vec3 w = v - u;
+    const glm::vec3& corner = points[faces[f].x];
+    const glm::vec3 u = points[faces[f].y] - corner, v = points[faces[f].z] - corner;
+    const glm::vec3 w = v - u, a = corner - origin;
     const float longest = std::max(std::max(glm::dot(u, u), glm::dot(v, v)), glm::dot(w, w));
     const glm::vec3 cross = glm::cross(u, v);
     const float squared = glm::dot(cross, cross);

@@ -7,6 +7,7 @@
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
+#include "mesh/bounds.h"
 #include "mesh/mesh.h"
 #include "mesh/topology.h"
 
@@ -70,9 +71,10 @@ class ContourFinder {
     return find(glm::dvec4(eye, 1.0), lists, known);
   }
 
-  /// The mesh's points have moved. `faces` are the topology's, `points` finite and in its order. Faces without area
-  /// take the normal of a neighbour, if they have one with area near by. Allocates nothing. About 5 ns a face.
-  void move(std::span<const glm::uvec3> faces, std::span<const glm::vec3> points);
+  /// The mesh's points have moved. `faces` are the topology's, `points` finite, in its order and within `box`. Faces
+  /// without area take the normal of a neighbour, if they have one with area near by. Allocates nothing. About 5 ns a
+  /// face.
+  void move(std::span<const glm::uvec3> faces, std::span<const glm::vec3> points, const Box& box);
 
  private:
   struct EdgeFaces {

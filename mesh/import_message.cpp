@@ -79,6 +79,9 @@ void put_mesh(MessageWriter& out, const Mesh& m) {
     out.put(static_cast<std::uint8_t>(line.unit));
     out.put(line.width);
     out.put(line.colour);
+    out.put(line.lit);
+    out.put(static_cast<std::int32_t>(line.width_texture));
+    out.put(static_cast<std::int32_t>(line.width_channel));
   }
   out.put(static_cast<std::uint64_t>(m.textures.size()));
   for (const Texture& texture : m.textures) {
@@ -121,6 +124,9 @@ Mesh get_mesh(MessageReader& in) {
                             : MaterialLine::Unit::None;
     line.width = in.get<float>();
     line.colour = in.get<glm::vec3>();
+    line.lit = in.get<float>();
+    line.width_texture = in.get<std::int32_t>();
+    line.width_channel = in.get<std::int32_t>();
     if (has_line) material.line = line;
   }
   m.textures.resize(in.length(sizeof(std::uint64_t)));
@@ -168,6 +174,8 @@ bool sound(const Mesh& m) {
     if (!all_finite(std::vector{material.base_colour}) || !std::isfinite(material.alpha_cutoff)) return false;
     const MaterialLine line = material.line.value_or(MaterialLine{});
     if (!std::isfinite(line.width) || line.width < 0 || !all_finite(std::vector{line.colour})) return false;
+    if (!(line.lit >= 0 && line.lit <= 1) || line.width_channel < 0 || line.width_channel > 3) return false;
+    if (line.width_texture < -1 || line.width_texture >= static_cast<std::int64_t>(m.textures.size())) return false;
   }
   for (const Texture& t : m.textures) {
     if (t.width_px <= 0 || t.height_px <= 0) return false;

@@ -23,6 +23,11 @@ struct MaterialLine {
   enum class Unit { None, Metres, PictureHeights } unit = Unit::None;  ///< None: without an outline
   float width = 0;
   glm::vec3 colour{0};  ///< sRGB-encoded
+  float lit = 0;        ///< 0 to 1: how much of the surface's own colour multiplies it
+  /// Index into Mesh::textures, -1 for none: one of its channels says, by texture coordinates, what the width is
+  /// multiplied by.
+  int width_texture = -1;
+  int width_channel = 0;  ///< 0 red, 1 green
 };
 
 struct Material {

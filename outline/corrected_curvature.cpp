@@ -155,45 +155,37 @@ void CorrectedCurvature::run_at(const FaceStars& stars, std::span<const glm::vec
   seen_face_.resize(stars.faces.size());
   seen_at_.resize(stars.point_count());
   scaled_.resize(stars.point_count());
-  // The faces around points, each once, and their corners, each once.
-  const auto collect = [&](std::span<const std::uint32_t> around, std::vector<std::uint32_t>* corners) {
+  // The faces around points and their corners, each once.
+  const auto collect = [&](std::span<const std::uint32_t> around, std::vector<glm::uvec3>& faces,
+                           std::vector<std::uint32_t>& corners) {
     ++sweep_;
-    faces_.clear();
+    faces.clear();
+    corners.clear();
     for (const std::uint32_t p : around) {
       for (const std::uint32_t corner : stars.at(p)) {
         const std::uint32_t f = corner / 3;
         if (seen_face_[f] == sweep_) continue;
         seen_face_[f] = sweep_;
         const glm::uvec3& face = stars.faces[f];
-        faces_.push_back(face);
+        faces.push_back(face);
         for (int c = 0; c < 3; ++c) {
-          scaled_[face[c]] = glm::vec4(points[face[c]] * scale, 0);
-          normals_[face[c]] = glm::vec4(0);
-          measures_[face[c]] = {};
-          if (corners == nullptr || seen_at_[face[c]] == sweep_) continue;
+          if (seen_at_[face[c]] == sweep_) continue;
           seen_at_[face[c]] = sweep_;
-          corners->push_back(face[c]);
+          corners.push_back(face[c]);
         }
       }
     }
   };
-  ring_.clear();
-  collect(wanted, &ring_);
-  collect(ring_, nullptr);
+  collect(wanted, inner_faces_, ring_);
+  collect(ring_, faces_, second_ring_);
+  for (const std::uint32_t p : second_ring_) {
+    scaled_[p] = glm::vec4(points[p] * scale, 0);
+    normals_[p] = glm::vec4(0);
+    measures_[p] = {};
+  }
   add_normals(faces_, scaled_);
   for (const std::uint32_t p : ring_) normalise(normals_[p]);
-  // The first ring's faces again, now that there are normals.
-  ++sweep_;
-  faces_.clear();
-  for (const std::uint32_t p : wanted) {
-    for (const std::uint32_t corner : stars.at(p)) {
-      const std::uint32_t f = corner / 3;
-      if (seen_face_[f] == sweep_) continue;
-      seen_face_[f] = sweep_;
-      faces_.push_back(stars.faces[f]);
-    }
-  }
-  add_measures(faces_, scaled_);
+  add_measures(inner_faces_, scaled_);
 }
 
 MeanAndGauss from_measures(const Measures& sum) {

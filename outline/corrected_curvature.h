@@ -56,8 +56,9 @@ class CorrectedCurvature {
 
   std::vector<glm::vec4> normals_;
   std::vector<Measures> measures_;
-  std::vector<glm::uvec3> faces_;                   // of the part that run_at() is asked for
-  std::vector<std::uint32_t> ring_;                 // points
+  // Of the part that run_at() is asked for: faces around the wanted points, and around those faces' corners.
+  std::vector<glm::uvec3> inner_faces_, faces_;
+  std::vector<std::uint32_t> ring_, second_ring_;   // the corners of these
   std::vector<glm::vec4> scaled_;                   // per point, where needed
   std::vector<std::uint32_t> seen_face_, seen_at_;  // per face and point: by which sweep
   std::uint32_t sweep_ = 0;

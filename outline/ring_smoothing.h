@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "mesh/topology.h"
-#include "outline/point_neighbours.h"
+#include "outline/surroundings.h"
 
 namespace rinkaku::outline {
 
@@ -29,13 +29,7 @@ class RingSmoothing {
  private:
   void step(std::span<const std::uint32_t> of, std::span<float> values);
 
-  int times_ = 0;
-  PointNeighbours neighbours_;
-  std::vector<std::uint32_t> all_;
-  std::vector<std::uint32_t> rings_, ring_ends_;  // the wanted points, then their neighbours, ...
-  bool whole_ = true;
-  std::vector<std::uint32_t> seen_at_;  // per point: by which call
-  std::uint32_t call_ = 0;
+  Surroundings points_;
   std::vector<float> smoothed_;
 };
 

@@ -4,15 +4,18 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <span>
+#include <vector>
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
 #include <glm/trigonometric.hpp>
 
 #include "mesh/bounds.h"
+#include "mesh/moving_mesh.h"
+#include "mesh/topology.h"
 #include "pipeline/frame/error.h"
 #include "pipeline/gl/context.h"
-#include "pipeline/objects/lone_mesh.h"
 #include "pipeline/objects/placement.h"
 #include "pipeline/passes/composite/straight_alpha.h"
 
@@ -42,10 +45,10 @@ RigidTransform camera_from_world(const PortraitOptions& options) {
 }
 
 // The focal length and the picture's place for which the mesh's own rectangle fills the picture up to the margins.
-CameraModel fitting_camera(const mesh::Mesh& mesh, const glm::dmat4& camera_from_object,
+CameraModel fitting_camera(std::span<const glm::vec3> positions, const glm::dmat4& camera_from_object,
                            const PortraitOptions& options) {
   glm::dvec2 low(std::numeric_limits<double>::max()), high(-low);
-  for (const glm::vec3& position : mesh.positions) {
+  for (const glm::vec3& position : positions) {
     const glm::dvec3 p = glm::dvec3(camera_from_object * glm::dvec4(position, 1));
     const glm::dvec2 seen(p.x / p.z, p.y / p.z);
     low = glm::min(low, seen), high = glm::max(high, seen);
@@ -60,6 +63,14 @@ CameraModel fitting_camera(const mesh::Mesh& mesh, const glm::dmat4& camera_from
   camera.cx_px = (options.width_px - 1) / 2.0 - camera.fx_px * middle.x;
   camera.cy_px = (options.height_px - 1) / 2.0 - camera.fy_px * middle.y;
   return camera;
+}
+
+// Where the mesh is at the moment that is shown.
+std::vector<glm::vec3> shown_positions(const mesh::Mesh& mesh, const PortraitOptions& options) {
+  if (options.motion.rig == nullptr) return mesh.positions;
+  mesh::MovingMesh moving(mesh, mesh::topology(mesh), *options.motion.rig, options.motion.playback);
+  moving.move_to(options.time_s);
+  return {moving.skin().points().begin(), moving.skin().points().end()};
 }
 
 Frame laid_over(const passes::Layer& layer, const PortraitOptions& options) {
@@ -96,7 +107,8 @@ Frame portrait(const mesh::Mesh& mesh, const PortraitOptions& options) {
   const glm::dmat4 world_from_mesh = place_in_unit_ball(mesh, options.up);
   passes::View view;
   view.camera_from_world = camera_from_world(options);
-  view.camera = fitting_camera(mesh, to_matrix(view.camera_from_world) * world_from_mesh, options);
+  const std::vector<glm::vec3> positions = shown_positions(mesh, options);
+  view.camera = fitting_camera(positions, to_matrix(view.camera_from_world) * world_from_mesh, options);
 
   const std::unique_ptr<gl::Context> context = gl::Context::headless();
   passes::Layer layer;
@@ -104,8 +116,13 @@ Frame portrait(const mesh::Mesh& mesh, const PortraitOptions& options) {
     passes::ToonOptions toon;
     toon.shade_colour = {0.80f, 0.79f, 0.86f};
     toon.light = {-0.2f, -0.7f, 0.8f};
-    lone_mesh(mesh, world_from_mesh, toon, options.outline, {0, 0, options.width_px, options.height_px})
-        ->draw(view, layer);
+    const auto renderer = lone_mesh(mesh, world_from_mesh, toon, options.outline,
+                                    {0, 0, options.width_px, options.height_px}, options.motion);
+    // Strokes stay where they were in the frames before, so there have to be some.
+    for (int before = options.motion.rig != nullptr ? 3 : 0; before >= 0; --before) {
+      view.time_s = options.time_s - before / 24.0;
+      renderer->draw(view, layer);
+    }
   }
   return laid_over(layer, options);
 }

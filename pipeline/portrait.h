@@ -6,6 +6,7 @@
 
 #include "mesh/mesh.h"
 #include "pipeline/frame/frame.h"
+#include "pipeline/objects/lone_mesh.h"
 #include "pipeline/scene/outline.h"
 
 namespace rinkaku::pipeline {
@@ -21,6 +22,8 @@ struct PortraitOptions {
   double raise_deg = 20;  ///< above the ground
   double margin = 0.06;   ///< of the picture, left free at each side
   std::optional<OutlineScene> outline = thin_line();
+  LoneMotion motion{};  ///< of which the moment `time_s` is shown, after some frames of 1/24 s before it
+  double time_s = 0;
   glm::vec3 background{0.88f, 0.88f, 0.87f};  ///< sRGB-encoded
 };
 

@@ -100,6 +100,8 @@ struct SheetCall {
   int columns = 4;
   double turn_deg = 35;
   double raise_deg = 20;
+  std::string clip;   ///< empty: the first one, if a time is given, else the mesh at rest
+  double time_s = 0;  ///< of the clip
   bool force = false;
   bool json = false;
 };

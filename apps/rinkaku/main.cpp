@@ -222,6 +222,8 @@ struct CommandLine {
     sub->add_option("--raise-deg", c.raise_deg, "From how far above the ground")
         ->check(CLI::Range(-89.0, 89.0))
         ->capture_default_str();
+    sub->add_option("--clip", c.clip, "In motion: a moment of this clip of the mesh, else of its first");
+    sub->add_option("--time-s", c.time_s, "Which moment")->check(CLI::Range(0.0, 1e6));
     add_force(sub, c.force);
     add_json(sub, c.json);
   }

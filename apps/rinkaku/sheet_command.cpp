@@ -11,6 +11,7 @@
 #include "apps/rinkaku/picture_file.h"
 #include "mesh/import.h"
 #include "pipeline/frame/error.h"
+#include "pipeline/objects/animated.h"
 #include "pipeline/sheet.h"
 
 namespace rinkaku::app {
@@ -38,8 +39,17 @@ std::vector<pipeline::SheetCell> chosen(const std::vector<pipeline::SheetCell>& 
 int sheet(const SheetCall& call) {
   check_picture_file(call.output, call.mesh, call.force);
   const std::vector<pipeline::SheetCell> cells = chosen(pipeline::all_styles(call.width_px), call.styles);
-  const mesh::Imported imported = mesh::import(call.mesh);
+  const bool moves = !call.clip.empty() || call.time_s != 0;
+  const mesh::Imported imported = mesh::import(call.mesh, {.rig = moves});
   pipeline::SheetOptions options;
+  if (moves && imported.rig.animations.empty()) {
+    throw input_error("--clip", call.mesh + " has no animation", "leave --clip and --time-s out");
+  }
+  if (moves) {
+    const pipeline::AnimationScene animation{.clip_name = call.clip, .where = "--clip"};
+    options.portrait.motion = {&imported.rig, pipeline::playback(animation, imported.rig, call.mesh)};
+    options.portrait.time_s = call.time_s;
+  }
   options.portrait.width_px = options.portrait.height_px = call.cell_px;
   options.portrait.up = imported.summary.up;
   options.portrait.turn_deg = call.turn_deg;

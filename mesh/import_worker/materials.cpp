@@ -175,12 +175,26 @@ TextureReader::TextureReader(const aiScene* scene, fs::path folder) : scene_(sce
 int TextureReader::number_of(const std::string& name) {
   if (name.empty()) return -1;
   if (const auto known = by_name_.find(name); known != by_name_.end()) return known->second;
-  Texture decoded;
+  Texture texture;
   std::string why;
+  const bool decoded = decode(name, texture, why);
+  return keep(name, decoded, std::move(texture), why);
+}
+
+int TextureReader::number_of(const std::string& name, std::span<const char> picture) {
+  if (const auto known = by_name_.find(name); known != by_name_.end()) return known->second;
+  Texture texture;
+  std::string why;
+  const bool decoded =
+      decode_bytes(reinterpret_cast<const std::uint8_t*>(picture.data()), picture.size(), texture, why);
+  return keep(name, decoded, std::move(texture), why);
+}
+
+int TextureReader::keep(const std::string& name, bool decoded, Texture&& texture, const std::string& why) {
   int index = -1;
-  if (decode(name, decoded, why)) {
+  if (decoded) {
     index = static_cast<int>(textures.size());
-    textures.push_back(std::move(decoded));
+    textures.push_back(std::move(texture));
   } else {
     warnings.push_back("texture " + name + ": " + why + "; drawn without it");
   }

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <map>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -22,11 +23,14 @@ class TextureReader {
 
   /// The texture's index in `textures`, or -1.
   int number_of(const std::string& name);
+  /// The same of a picture's file in memory, under a name of its own.
+  int number_of(const std::string& name, std::span<const char> picture);
 
   std::vector<Texture> textures;
   std::vector<std::string> warnings;
 
  private:
+  int keep(const std::string& name, bool decoded, Texture&& texture, const std::string& why);
   bool decode(const std::string& name, Texture& out, std::string& why) const;
 
   const aiScene* scene_;

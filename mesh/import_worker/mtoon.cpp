@@ -4,10 +4,9 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <utility>
 
 #include <nlohmann/json.hpp>
-
-#include "mesh/import_worker/materials.h"
 
 namespace rinkaku::mesh {
 namespace {
@@ -57,8 +56,20 @@ glm::vec3 colour(const Json& components) {
 
 MaterialLine line_of(Unit unit, float width, const glm::vec3& colour) {
   if (!(width > 0)) unit = Unit::None;
-  return {unit, unit == Unit::None ? 0.0f : width, colour};
+  MaterialLine line;
+  line.unit = unit;
+  line.width = unit == Unit::None ? 0.0f : width;
+  line.colour = colour;
+  return line;
 }
+
+// A whole number from 0, or -1.
+int index_of(const Json& value) {
+  return value.is_number_unsigned() ? static_cast<int>(std::min(value.get<std::uint64_t>(), std::uint64_t{1} << 30))
+                                    : -1;
+}
+
+void light(MaterialLine& line, float mix) { line.lit = std::clamp(mix, 0.0f, 1.0f); }
 
 // VRM 0.x: colours are sRGB.
 std::optional<MaterialLine> line_0(const Json& properties) {
@@ -68,9 +79,12 @@ std::optional<MaterialLine> line_0(const Json& properties) {
   const float mode = number(numbers, "_OutlineWidthMode", 0), width = number(numbers, "_OutlineWidth", 0.5f);
   const glm::vec3 ink = colour(member(member(properties, "vectorProperties"), "_OutlineColor"));
   constexpr float metres = 0.01f, heights = 0.005f;
-  if (mode == 1) return line_of(Unit::Metres, width * metres, ink);
-  if (mode == 2) return line_of(Unit::PictureHeights, width * heights, ink);
-  return line_of(Unit::None, 0, ink);
+  MaterialLine line = mode == 1   ? line_of(Unit::Metres, width * metres, ink)
+                      : mode == 2 ? line_of(Unit::PictureHeights, width * heights, ink)
+                                  : line_of(Unit::None, 0, ink);
+  if (number(numbers, "_OutlineColorMode", 0) == 1) light(line, number(numbers, "_OutlineLightingMix", 1));
+  line.width_texture = index_of(member(member(properties, "textureProperties"), "_OutlineWidthTexture"));
+  return line;
 }
 
 // VRM 1.0: colours are linear.
@@ -83,7 +97,32 @@ std::optional<MaterialLine> line_1(const Json& mtoon) {
   const Unit unit = word == "worldCoordinates"    ? Unit::Metres
                     : word == "screenCoordinates" ? Unit::PictureHeights
                                                   : Unit::None;
-  return line_of(unit, number(mtoon, "outlineWidthFactor", 0), ink);
+  MaterialLine line = line_of(unit, number(mtoon, "outlineWidthFactor", 0), ink);
+  light(line, number(mtoon, "outlineLightingMixFactor", 1));
+  line.width_texture = index_of(member(member(mtoon, "outlineWidthMultiplyTexture"), "index"));
+  line.width_channel = 1;
+  return line;
+}
+
+// The bytes of a texture's picture that lies in the binary chunk, which follows the JSON; empty if it doesn't.
+std::span<const char> picture_of(const Json& file, std::span<const char> glb, int texture) {
+  std::uint32_t json_length = 0;
+  std::memcpy(&json_length, glb.data() + 12, 4);
+  const std::uint64_t start = 20 + std::uint64_t{json_length} + 8;
+  if (start > glb.size()) return {};
+  const std::span<const char> binary = glb.subspan(start);
+  const auto at = [&](const char* list, const Json& index) -> const Json& {
+    const int i = index_of(index);
+    static const Json none;
+    return i < 0 ? none : element(member(file, list), static_cast<std::size_t>(i));
+  };
+  const Json& image = at("images", member(at("textures", Json(static_cast<unsigned>(texture))), "source"));
+  const Json& view = at("bufferViews", member(image, "bufferView"));
+  if (!view.is_object() || index_of(member(view, "buffer")) != 0) return {};
+  const auto offset = static_cast<std::size_t>(std::max(index_of(member(view, "byteOffset")), 0));
+  const int length = index_of(member(view, "byteLength"));
+  if (length <= 0 || offset > binary.size() || static_cast<std::size_t>(length) > binary.size() - offset) return {};
+  return binary.subspan(offset, static_cast<std::size_t>(length));
 }
 
 }  // namespace
@@ -96,8 +135,19 @@ MtoonLines::MtoonLines(std::span<const char> glb) {
     const Json& name = member(materials[i], "name");
     std::optional<MaterialLine> line = line_1(member(member(materials[i], "extensions"), "VRMC_materials_mtoon"));
     if (!line) line = line_0(element(vrm_0, i));
+    if (line && line->width_texture >= 0) {
+      const std::span<const char> picture = picture_of(file, glb, line->width_texture);
+      if (!picture.empty()) pictures_.try_emplace(line->width_texture, picture.begin(), picture.end());
+    }
     materials_.push_back({name.is_string() ? name.get<std::string>() : "", line});
   }
+}
+
+void MtoonLines::read_width_texture(MaterialLine& line, TextureReader& textures) const {
+  const int number = std::exchange(line.width_texture, -1);
+  const auto found = pictures_.find(number);
+  if (found == pictures_.end()) return;
+  line.width_texture = textures.number_of("of outline widths, number " + std::to_string(number), found->second);
 }
 
 std::optional<MaterialLine> MtoonLines::of(unsigned index, const std::string& name) const {

@@ -53,7 +53,14 @@ void add_cuts(const mesh::Mesh& mesh, const mesh::Topology& topology, Features& 
       const glm::dvec3& end = cut.ends[k];
       const auto fresh = static_cast<std::uint32_t>(mesh.positions.size() + out.more_positions.size());
       const auto [at, added] = known.try_emplace({end.x, end.y, end.z}, fresh);
-      if (added) out.more_positions.emplace_back(end), out.welded.push_back(point++);
+      if (added) {
+        out.more_positions.emplace_back(end);
+        out.welded.push_back(point++);
+        CutPlace& place = out.cut_places.emplace_back();
+        for (std::size_t side = 0; side < 2; ++side) {
+          place.sides[side] = {mesh.triangles[cut.faces[side]], glm::vec3(cut.weights[side][k])};
+        }
+      }
       ends[k] = at->second;
     }
     if (ends[0] != ends[1]) found.add(ends[0], ends[1], cut.faces[0], cut.faces[1]);

@@ -8,6 +8,7 @@
 #include "mesh/mesh.h"
 #include "mesh/topology.h"
 #include "outline/strokes/chains.h"
+#include "outline/strokes/cut_places.h"
 
 namespace rinkaku::outline {
 
@@ -25,11 +26,13 @@ struct Feature {
   std::uint32_t face0 = 0, face1 = 0;  ///< triangles of the mesh
 };
 
-/// The lines of a mesh that don't depend on where it is seen from. No GL.
+/// The lines of a mesh that don't depend on where it is seen from. Of one that moves, creases are those that it has at
+/// rest: they are part of its make, and lines don't come and go at its joints. No GL.
 struct Features {
   std::vector<Feature> list;  ///< in the order in which they follow one another
   /// Positions of the vertices after the mesh's own: the ends of cuts. In the mesh's coordinates.
   std::vector<glm::vec3> more_positions;
+  std::vector<CutPlace> cut_places;   ///< the same as places on faces
   std::vector<std::uint32_t> welded;  ///< of the mesh's vertices and of those
 };
 

@@ -29,14 +29,15 @@ glm::vec2 way_at(const StrokePath& path, std::size_t i) {
 
 }  // namespace
 
-void StrokeMemory::begin(const glm::mat4& to_pixels) {
+void StrokeMemory::begin(const LinePoints& points, const glm::mat4& to_pixels) {
   std::swap(last_, now_);
   now_.clear();
   lines_ = 0;
   cells_.fill(kNone);
   for (std::uint32_t i = 0; i < last_.size(); ++i) {
     Place& place = last_[i];
-    const glm::vec3 seen(to_pixels * glm::vec4(place.position, 1)), ahead(to_pixels * glm::vec4(place.ahead, 1));
+    const glm::vec3 seen(to_pixels * glm::vec4(place.here.on(points), 1));
+    const glm::vec3 ahead(to_pixels * glm::vec4(place.ahead.on(points), 1));
     if (!(seen.z > 1e-3f) || !(ahead.z > 1e-3f)) continue;
     place.px = glm::vec2(seen) / seen.z;
     place.way = glm::vec2(ahead) / ahead.z - place.px;
@@ -122,8 +123,8 @@ void StrokeMemory::remember(const StrokePath& path, const StrokeFit& fit) {
   const std::span<const StrokeSample> samples = path.samples();
   for (std::size_t i = 0; i + 1 < samples.size(); i += kEvery) {
     Place place;
-    place.position = samples[i].position;
-    place.ahead = samples[i + 1].position;
+    place.here = samples[i].place;
+    place.ahead = samples[i + 1].place;
     place.u_px = fit.scale * samples[i].way_px + fit.offset_px;
     place.scale = fit.scale;
     place.line = lines_;

@@ -19,14 +19,15 @@ struct StrokeFit {
 
 /// Keeps strokes where they were in the frame before, as lines move, join and part from frame to frame.
 ///
-/// Places of the last frame's lines are kept on the shape, seen anew by this frame's camera, and looked up beside this
-/// frame's lines; a straight line is fitted to what those say (after Kalnins, Davidson, Markosian and Finkelstein,
-/// "Coherent stylized silhouettes", 2003: votes and fitting, for the line with most votes). What had to be stretched
-/// goes back to its own length by and by. No GL. Allocates nothing once warm; about a microsecond a sample.
+/// Places of the last frame's lines are kept on the shape, go with it, are seen anew by this frame's camera, and looked
+/// up beside this frame's lines; a straight line is fitted to what those say (after Kalnins, Davidson, Markosian and
+/// Finkelstein, "Coherent stylized silhouettes", 2003: votes and fitting, for the line with most votes). What had to be
+/// stretched goes back to its own length by and by. No GL. Allocates nothing once warm; about a microsecond a sample.
 class StrokeMemory {
  public:
-  /// A new frame: sees the last one's places through `to_pixels` (see StrokePath::trace).
-  void begin(const glm::mat4& to_pixels);
+  /// A new frame: sees the last one's places, where `points` have come to be, through `to_pixels` (see
+  /// StrokePath::trace).
+  void begin(const LinePoints& points, const glm::mat4& to_pixels);
   /// For a line of this frame. On closed ones, a whole number of `period_px` fits, if that is above 0.
   StrokeFit fit(const StrokePath& path, float period_px);
   /// Notes a line of this frame for the next one.
@@ -34,8 +35,7 @@ class StrokeMemory {
 
  private:
   struct Place {
-    glm::vec3 position{0};
-    glm::vec3 ahead{0};  // a little farther along the line
+    LinePlace here, ahead;  // ahead: a little farther along the line
     float u_px = 0, scale = 1;
     std::uint32_t line = 0;
     // As this frame sees it.

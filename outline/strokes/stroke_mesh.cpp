@@ -45,7 +45,7 @@ void StrokeMesh::add(const StrokePath& path, const StrokeFit& fit, const StrokeB
     float width = std::max(s.width_px, 1.0f);
     float sway = 0;
     if (band.wobble > 0) {
-      const glm::vec3 place = s.position / band.wave;
+      const glm::vec3 place = (band.rest != nullptr ? s.place.on(*band.rest) : s.position) / band.wave;
       // Two sizes of waves: the larger one is the hand's, the smaller the pen's.
       const float hand = smooth_noise(place, 2 * band.draft), pen = smooth_noise(3.1f * place, 2 * band.draft + 1);
       const float thicker = std::clamp(1 + band.wobble * (1.2f * hand + 0.6f * pen), 0.15f, 3.0f);

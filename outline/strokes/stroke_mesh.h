@@ -23,10 +23,12 @@ struct StrokeVertex {
 };
 
 struct StrokeBand {
-  bool outside = false;     ///< the stroke lies to the right of the way; else in its middle
-  bool mirrored = false;    ///< then to the left
-  float wobble = 0;         ///< how much of its width a line is thicker and thinner, and displaced
-  float wave = 1;           ///< size of wobbles, in the object's coordinates
+  bool outside = false;   ///< the stroke lies to the right of the way; else in its middle
+  bool mirrored = false;  ///< then to the left
+  float wobble = 0;       ///< how much of its width a line is thicker and thinner, and displaced
+  float wave = 1;         ///< size of wobbles, in the object's coordinates
+  /// Where the points were at rest, if they have moved since: wobbles are fixed to the shape there.
+  const LinePoints* rest = nullptr;
   std::uint32_t draft = 0;  ///< another number wobbles otherwise
 };
 

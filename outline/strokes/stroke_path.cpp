@@ -13,6 +13,7 @@ constexpr float kNear_m = 1e-3f;
 
 StrokeSample between(const StrokeSample& a, const StrokeSample& b, float t) {
   StrokeSample s;
+  s.place = {a.place.from, b.place.from, t};
   s.position = glm::mix(a.position, b.position, t);
   // Straight on the screen too, but depth runs with its inverse.
   s.px = glm::mix(a.px, b.px, t);
@@ -24,15 +25,15 @@ StrokeSample between(const StrokeSample& a, const StrokeSample& b, float t) {
 }  // namespace
 
 void StrokePath::trace(std::span<const std::uint32_t> vertices, std::span<const float> widths_px,
-                       const PositionView& positions, std::span<const glm::vec3> more_positions,
-                       std::size_t own_positions, const glm::mat4& to_pixels, bool closed, const PathOptions& options) {
+                       const LinePoints& points, const glm::mat4& to_pixels, bool closed, const PathOptions& options) {
   samples_.clear();
   closed_ = closed;
   StrokeSample before;
   for (std::size_t i = 0; i < vertices.size(); ++i) {
     const std::uint32_t v = vertices[i];
     StrokeSample node;
-    node.position = v < own_positions ? positions[v] : more_positions[v - own_positions];
+    node.place = {v, v, 0};
+    node.position = points[v];
     const glm::vec3 seen(to_pixels * glm::vec4(node.position, 1));
     if (!(seen.z > kNear_m)) {
       closed_ = false;

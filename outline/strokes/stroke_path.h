@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include <glm/common.hpp>
 #include <glm/mat4x4.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
@@ -20,8 +21,24 @@ struct PositionView {
   const glm::vec3& operator[](std::size_t i) const { return *reinterpret_cast<const glm::vec3*>(first + i * stride); }
 };
 
+/// What lines run through: a mesh's vertices and places that are numbered after them.
+struct LinePoints {
+  PositionView own;
+  std::size_t own_count = 0;
+  std::span<const glm::vec3> more{};
+  const glm::vec3& operator[](std::uint32_t v) const { return v < own_count ? own[v] : more[v - own_count]; }
+};
+
+/// A place on the way from one of these to another, which stays there however they move.
+struct LinePlace {
+  std::uint32_t from = 0, to = 0;
+  float part = 0;  ///< of the way
+  glm::vec3 on(const LinePoints& points) const { return glm::mix(points[from], points[to], part); }
+};
+
 /// A place along a line as it is seen.
 struct StrokeSample {
+  LinePlace place;
   glm::vec3 position{0};  ///< on the shape, in the object's coordinates
   glm::vec2 px{0};        ///< where it is seen, pixels of the pinhole picture
   glm::vec2 shift_px{0};  ///< what smoothing moves it by
@@ -43,9 +60,8 @@ class StrokePath {
  public:
   /// `to_pixels` takes a position to (x Z, y Z, Z, Z), x and y in pixels of the pinhole picture. `widths_px` are per
   /// vertex of the chain. Where a vertex is nearer than `near_m`, the path breaks off: the rest is left out.
-  void trace(std::span<const std::uint32_t> vertices, std::span<const float> widths_px, const PositionView& positions,
-             std::span<const glm::vec3> more_positions, std::size_t own_positions, const glm::mat4& to_pixels,
-             bool closed, const PathOptions& options);
+  void trace(std::span<const std::uint32_t> vertices, std::span<const float> widths_px, const LinePoints& points,
+             const glm::mat4& to_pixels, bool closed, const PathOptions& options);
 
   std::span<StrokeSample> samples() { return samples_; }
   std::span<const StrokeSample> samples() const { return samples_; }

@@ -64,6 +64,7 @@ StrokePass::StrokePass(passes::DrawnObject& object, const mesh::Mesh& mesh, cons
     inner_chains_ = Chains(features_.welded);
   }
   if (options.isophote > 0) bends_.emplace(topology);
+  if (options.wobble > 0 && object.shape().moves()) rest_positions_ = mesh.positions;
 
   const std::string_view vertex[] = {embedded::stroke_vert}, fragment[] = {embedded::stroke_frag};
   std::span<const std::string_view> defines;
@@ -103,10 +104,11 @@ double StrokePass::reach_px(const passes::View& view) const {
   return 2 * (options_.outside ? widest : 0.5 * widest) + 3;
 }
 
-PositionView StrokePass::positions() const {
-  return {
-      reinterpret_cast<const std::byte*>(object_.shape().vertices().data()) + offsetof(passes::ShapeVertex, position),
-      sizeof(passes::ShapeVertex)};
+LinePoints StrokePass::line_points() const {
+  const auto* vertices = reinterpret_cast<const std::byte*>(object_.shape().vertices().data());
+  return {{vertices + offsetof(passes::ShapeVertex, position), sizeof(passes::ShapeVertex)},
+          own_positions_,
+          moved_cuts_.positions.empty() ? more_positions_ : moved_cuts_.positions};
 }
 
 void StrokePass::add_contour(const passes::DrawCall& call) {
@@ -117,10 +119,35 @@ void StrokePass::add_contour(const passes::DrawCall& call) {
   const auto seen = static_cast<std::uint32_t>(segments_.size());
   for (const auto& piece : look.hidden_contour_pieces) segments_.push_back({piece.from, piece.to});
   contour_chains_.link(segments_);
-  runs_.part(contour_chains_, seen, positions(), look.to_pixels, longest_px);
+  if (bends_ && object_.shape().moves()) move_bends();
+  runs_.part(contour_chains_, seen, line_points().own, look.to_pixels, longest_px);
   for (const SeenRuns::Run& run : runs_.runs()) {
     add_line(call, runs_.vertices().subspan(run.first, run.count), run.closed, true);
   }
+}
+
+// Looks at how the shape bends where this frame's contour runs.
+void StrokePass::move_bends() {
+  contour_points_.clear();
+  for (const Segment& segment : segments_) {
+    contour_points_.push_back(welded_[segment.from]);
+    contour_points_.push_back(welded_[segment.to]);
+  }
+  bends_->move(object_.shape().moved_points(), object_.shape().moved_outline_normals(), contour_points_);
+}
+
+// Whether pieces that cut through each other still do where they did: to within half a line.
+bool StrokePass::holds_together(const passes::DrawCall& call, const Feature& feature) const {
+  if (moved_cuts_.apart.empty() || feature.segment.from < own_positions_) return true;
+  const passes::ObjectShape& shape = object_.shape();
+  const LinePoints points = line_points();
+  const double px_per_unit = call.view.camera.fx_px * scale_of(shape.world_from_object());
+  for (const std::uint32_t end : {feature.segment.from, feature.segment.to}) {
+    const float depth = std::abs((shape.last_look().to_pixels * glm::vec4(points[end], 1)).z);
+    const float most_px = std::max(0.5f * width_at_px(options_.look, call.view.camera.fx_px, depth), 0.5f);
+    if (moved_cuts_.apart[end - own_positions_] * px_per_unit > most_px * depth) return false;
+  }
+  return true;
 }
 
 void StrokePass::add_inner(const passes::DrawCall& call) {
@@ -129,7 +156,8 @@ void StrokePass::add_inner(const passes::DrawCall& call) {
   segments_.clear();
   for (const Feature& feature : features_.list) {
     const bool seen = look.front_faces[feature.face0] != 0 && look.front_faces[feature.face1] != 0;
-    if (seen || options_.only_hidden || shape.two_sided()) segments_.push_back(feature.segment);
+    if (!seen && !options_.only_hidden && !shape.two_sided()) continue;
+    if (holds_together(call, feature)) segments_.push_back(feature.segment);
   }
   inner_chains_.link(segments_);
   for (const Chain& chain : inner_chains_.chains()) {
@@ -137,8 +165,11 @@ void StrokePass::add_inner(const passes::DrawCall& call) {
   }
 }
 
-void StrokePass::add_drawn(const passes::DrawCall& call) {
-  const PositionView own = positions();
+// Brings what lines run through beside the mesh's vertices to where the mesh is now.
+void StrokePass::place_more() {
+  const PositionView own = line_points().own;
+  if (!features_.cut_places.empty() && object_.shape().moves()) moved_cuts_.move(features_.cut_places, own);
+  if (options_.drawn.empty()) return;
   more_positions_.clear();
   for (const DrawnLine& line : options_.drawn) {
     for (const SurfacePlace& place : line) {
@@ -146,6 +177,9 @@ void StrokePass::add_drawn(const passes::DrawCall& call) {
       more_positions_.push_back((1 - place.b - place.c) * own[v.x] + place.b * own[v.y] + place.c * own[v.z]);
     }
   }
+}
+
+void StrokePass::add_drawn(const passes::DrawCall& call) {
   auto next = static_cast<std::uint32_t>(own_positions_);
   for (const DrawnLine& line : options_.drawn) {
     drawn_vertices_.resize(line.size());
@@ -162,7 +196,7 @@ void StrokePass::add_line(const passes::DrawCall& call, std::span<const std::uin
   const passes::ObjectShape& shape = object_.shape();
   const passes::Look& look = shape.last_look();
   const double scale = scale_of(shape.world_from_object());
-  const PositionView own = positions();
+  const LinePoints points = line_points();
   const float drop = 1 - std::sqrt(1 - options_.isophote * options_.isophote);
   const auto px_per_unit = static_cast<float>(call.view.camera.fx_px * scale);
   glm::vec3 eye(0);
@@ -172,7 +206,7 @@ void StrokePass::add_line(const passes::DrawCall& call, std::span<const std::uin
   }
   widths_px_.clear();
   for (const std::uint32_t v : vertices) {
-    const glm::vec3 at = v < own_positions_ ? own[v] : more_positions_[v - own_positions_];
+    const glm::vec3& at = points[v];
     const float depth = std::abs((look.to_pixels * glm::vec4(at, 1)).z);
     float width = width_at_px(options_.look, call.view.camera.fx_px, depth);
     if (bends_ && contour) {
@@ -186,21 +220,23 @@ void StrokePass::add_line(const passes::DrawCall& call, std::span<const std::uin
   PathOptions how;
   if (!options_.hand) how.smoothing = 0;
   if (bends_) how.most_growth = 0.15f;
-  path_.trace(vertices, widths_px_, own, more_positions_, own_positions_, look.to_pixels, closed, how);
+  path_.trace(vertices, widths_px_, points, look.to_pixels, closed, how);
   if (path_.samples().empty() || path_.length_px() < shortest * widths_px_.front()) return;
   const float period_px = options_.stroke_px > 0 ? options_.stroke_px : brush_.name() != 0 ? options_.brush_px : 0;
   const StrokeFit fit = memory_.fit(path_, period_px);
   memory_.remember(path_, fit);
   const std::uint32_t draft =
       options_.redraw_frames > 0 ? frame_ / static_cast<std::uint32_t>(options_.redraw_frames) : 0;
+  const LinePoints rest{{reinterpret_cast<const std::byte*>(rest_positions_.data())}, rest_positions_.size()};
   strips_.add(path_, fit,
               {options_.outside && contour, shape.mirrored(), options_.wobble,
-               options_.wave_m / static_cast<float>(scale), draft});
+               options_.wave_m / static_cast<float>(scale), rest_positions_.empty() ? nullptr : &rest, draft});
 }
 
 void StrokePass::collect(const passes::DrawCall& call) {
   strips_.clear();
-  memory_.begin(object_.shape().last_look().to_pixels);
+  place_more();
+  memory_.begin(line_points(), object_.shape().last_look().to_pixels);
   using Lines = StrokeOptions::Lines;
   if (options_.lines == Lines::Contour || options_.lines == Lines::All) add_contour(call);
   if (options_.lines == Lines::Inner || options_.lines == Lines::All) add_inner(call);

@@ -73,10 +73,13 @@ class StrokePass : public passes::ObjectPass {
 
  private:
   void collect(const passes::DrawCall& call);
-  PositionView positions() const;
+  void place_more();
+  LinePoints line_points() const;
   void add_contour(const passes::DrawCall& call);
   void add_inner(const passes::DrawCall& call);
   void add_drawn(const passes::DrawCall& call);
+  void move_bends();
+  bool holds_together(const passes::DrawCall& call, const Feature& feature) const;
   void add_line(const passes::DrawCall& call, std::span<const std::uint32_t> vertices, bool closed, bool contour);
   void draw_depth(const passes::DrawCall& call, const passes::PixelRect& rect);
 
@@ -88,11 +91,13 @@ class StrokePass : public passes::ObjectPass {
   std::vector<std::uint32_t> welded_;
   std::vector<glm::uvec3> drawn_triangles_;  // of options_.drawn's places, line after line: the mesh's vertices
   std::vector<glm::vec3> more_positions_;    // after the object's own: the features', or this frame's drawn places
+  std::vector<glm::vec3> rest_positions_;    // of the object's own, if it moves and lines wobble
+  MovedCuts moved_cuts_;                     // if it moves
   Chains contour_chains_, inner_chains_;
   std::optional<RadialCurvature> bends_;
   // This frame's.
   std::vector<Segment> segments_;
-  std::vector<std::uint32_t> drawn_vertices_;
+  std::vector<std::uint32_t> drawn_vertices_, contour_points_;
   std::vector<float> widths_px_;
   SeenRuns runs_;
   StrokePath path_;

@@ -43,12 +43,13 @@ void weigh_by_paint(const ObjectScene& object, const mesh::Mesh& mesh, std::vect
 }
 
 // Between texels; the image repeats.
-float brightness_at(const mesh::Texture& image, const glm::vec2& uv) {
-  const auto texel = [&](int x, int y) {
+// `value` of a texel's four bytes is what is interpolated.
+template <class Value>
+float value_at(const mesh::Texture& image, const glm::vec2& uv, Value value) {
+  const auto texel = [&](int x, int y) -> float {
     const auto wrap = [](int i, int size) { return static_cast<std::size_t>(((i % size) + size) % size); };
     const auto width = static_cast<std::size_t>(image.width_px);
-    const std::uint8_t* c = image.rgba.data() + (wrap(y, image.height_px) * width + wrap(x, image.width_px)) * 4;
-    return (0.299f * c[0] + 0.587f * c[1] + 0.114f * c[2]) / 255;
+    return value(image.rgba.data() + (wrap(y, image.height_px) * width + wrap(x, image.width_px)) * 4);
   };
   const glm::vec2 at = glm::fract(uv) * glm::vec2(image.width_px, image.height_px) - 0.5f;
   const glm::vec2 corner = glm::floor(at), part = at - corner;
@@ -64,7 +65,30 @@ void weigh_by_map(const ObjectScene& object, const mesh::Mesh& mesh, std::vector
   }
   const mesh::Texture image = read_texture(object.outline->weight.map);
   PointMeans means(weights.size());
-  for (std::size_t v = 0; v < mesh.uvs.size(); ++v) means.add(mesh.welded[v], brightness_at(image, mesh.uvs[v]));
+  const auto brightness = [](const std::uint8_t* c) { return (0.299f * c[0] + 0.587f * c[1] + 0.114f * c[2]) / 255; };
+  for (std::size_t v = 0; v < mesh.uvs.size(); ++v) {
+    means.add(mesh.welded[v], value_at(image, mesh.uvs[v], brightness));
+  }
+  means.multiply(weights);
+}
+
+// By the width textures that the mesh's materials have in its file.
+void weigh_by_file_maps(const mesh::Mesh& mesh, std::vector<float>& weights) {
+  PointMeans means(weights.size());
+  for (const mesh::Part& part : mesh.parts) {
+    const mesh::MaterialLine line = mesh.materials[part.material].line.value_or(mesh::MaterialLine{});
+    for (std::uint32_t t = 0; t < part.triangle_count; ++t) {
+      const glm::uvec3& triangle = mesh.triangles[part.first_triangle + t];
+      for (int k = 0; k < 3; ++k) {
+        float value = 1;
+        if (line.width_texture >= 0) {
+          const auto channel = [&](const std::uint8_t* c) { return static_cast<float>(c[line.width_channel]) / 255; };
+          value = value_at(mesh.textures[static_cast<std::size_t>(line.width_texture)], mesh.uvs[triangle[k]], channel);
+        }
+        means.add(mesh.welded[triangle[k]], value);
+      }
+    }
+  }
   means.multiply(weights);
 }
 
@@ -104,11 +128,13 @@ void weigh_by_material(const ObjectScene& object, const mesh::Mesh& mesh, std::v
 std::vector<float> line_weights(const ObjectScene& object, const mesh::Mesh& mesh) {
   if (!object.outline) return {};
   const LineWeightScene& scene = object.outline->weight;
-  if (!scene.paint && scene.map.empty() && scene.materials.empty() && scene.of_file.empty()) return {};
+  const bool of_materials = !scene.materials.empty() || !scene.of_file.empty();
+  if (!scene.paint && scene.map.empty() && !of_materials && !scene.file_maps) return {};
   std::vector<float> weights(mesh.point_count, 1.0f);
   if (scene.paint) weigh_by_paint(object, mesh, weights);
   if (!scene.map.empty()) weigh_by_map(object, mesh, weights);
-  if (!scene.materials.empty() || !scene.of_file.empty()) weigh_by_material(object, mesh, weights);
+  if (of_materials) weigh_by_material(object, mesh, weights);
+  if (scene.file_maps) weigh_by_file_maps(mesh, weights);
   // A line of no width at all would be a strip without a direction to fade in; this can't be seen.
   constexpr float unseen = 0.002f;
   for (float& weight : weights) weight = std::max(weight, unseen);

@@ -130,7 +130,8 @@ void ObjectShape::follow() {
     y_[p] = points[p].y;
     z_[p] = points[p].z;
   }
-  centre_ = glm::dvec3(world_from_object_ * glm::dvec4(mesh::bounding_box(points).centre(), 1.0));
+  const mesh::Box box = mesh::bounding_box(points);
+  centre_ = glm::dvec3(world_from_object_ * glm::dvec4(box.centre(), 1.0));
   const glm::mat3 object_from_world(glm::dmat3(object_from_world_) * push_m_);
   const auto push = [&](const glm::vec3& outline_normal) {
     if (evenly_scaled_) return outline_normal;
@@ -145,7 +146,7 @@ void ObjectShape::follow() {
     out.normal = snorm(normals[v]);
     out.outline_normal = snorm(push(outline_normals[p]));
   }
-  whole_->move(faces_, points);
+  whole_->move(faces_, points, box);
   borders_->move(vertices_);
   intersections_->move(points, outline_normals, vertices_);
 }

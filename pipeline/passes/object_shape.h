@@ -100,6 +100,8 @@ class ObjectShape {
   std::uint64_t moves_made() const { return moves_made_; }
   /// Where its welded points are now, in the object's coordinates. Precondition: it moves.
   std::span<const glm::vec3> moved_points() const { return moving_->skin().points(); }
+  /// And their outline normals, unit, likewise.
+  std::span<const glm::vec3> moved_outline_normals() const { return moving_->skin().outline_normals(); }
   /// Of the borders between materials; empty if there are none.
   std::span<const BorderVertex> border_vertices() const { return borders_->vertices(); }
   bool intersects_itself() const { return !intersections_->empty(); }

@@ -24,7 +24,8 @@ struct LineWeightScene {
   std::vector<OfMaterial> materials;
   /// What the mesh's file says, for each of its materials, or empty; `materials` counts before it.
   std::vector<double> of_file;
-  bool any() const { return shade > 0 || paint || !map.empty() || !materials.empty() || !of_file.empty(); }
+  bool file_maps = false;  ///< whether the materials' own width textures count
+  bool any() const { return shade > 0 || paint || !map.empty() || !materials.empty() || !of_file.empty() || file_maps; }
 };
 
 /// Whether a method's lines can be weighed: whether they are drawn along the contour's points.

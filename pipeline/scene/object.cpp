@@ -30,13 +30,6 @@ glm::dvec3 read_scale(const Table& object) {
   return scale;
 }
 
-/// Whether a method's lines run along what was found on the mesh at rest.
-bool is_along_still_mesh(LineMethod method) {
-  using M = LineMethod;
-  return method == M::ZLines || method == M::HiddenLines || method == M::Isophote || method == M::Wobble ||
-         method == M::Strokes;
-}
-
 /// What is made of a mesh at rest can't go with it when it moves.
 void refuse_for_animated(const Table& object, const ObjectScene& scene) {
   if (!scene.animation) return;
@@ -48,12 +41,6 @@ void refuse_for_animated(const Table& object, const ObjectScene& scene) {
   if (scene.fluffy && (scene.fluffy->cut == Cut::Regions || scene.fluffy->cut == Cut::Nearest)) {
     throw object.error_at("fluffy", "is cut by lists made of a mesh that stands still, but the object has 'animation'",
                           "give cut = \"exact\" or \"gpu\"");
-  }
-  if (!scene.outline) return;
-  if (is_along_still_mesh(scene.outline->method) || scene.outline->style.inner) {
-    throw object.error_at("outline", "has lines that need a mesh that stands still, but the object has 'animation'",
-                          "take another method than \"z_lines\", \"hidden_lines\", \"isophote\", \"wobble\" and "
-                          "\"strokes\", without inner lines");
   }
 }
 

@@ -46,6 +46,7 @@ TEST(SheetCommand, BadCallsSayOneLineAndWriteNothing) {
       {"sheet gone.obj -o new.png", "gone.obj"},
       {"sheet cube.obj -o new.png --columns 0", "--columns"},
       {"sheet cube.obj", "--output"},
+      {"sheet cube.obj -o new.png --clip Run", "cube.obj has no animation"},
   };
   for (const auto& [call, part] : calls) {
     const test::CliResult got = test::run_rinkaku(folder, call);

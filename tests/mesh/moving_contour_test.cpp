@@ -18,7 +18,7 @@ TEST(MovingContour, IsThatOfAMeshThatStandsSo) {
   std::uniform_real_distribution<double> place(-6, 6);
   for (const double time_s : {0.1, 0.5, 0.95}) {
     movement.move_to(time_s);
-    moving.move(rest.faces, movement.skin().points());
+    moving.move(rest.faces, movement.skin().points(), bounding_box(movement.skin().points()));
     const Mesh standing = test::posed(cylinder.mesh, movement.skin());
     const Topology fresh = topology(standing);
     ContourFinder still(standing, fresh);
@@ -43,7 +43,7 @@ TEST(MovingContour, SqueezedPartsFaceLikeTheirNeighbours) {
   Skin skin(cylinder.mesh, rest, cylinder.rig);
   // The upper half becomes one point, the cylinder a kind of cone.
   skin.pose(poser.at(test::still(1, {0, 1, 0}, glm::quat(1, 0, 0, 0), glm::vec3(0)), 0));
-  finder.move(rest.faces, skin.points());
+  finder.move(rest.faces, skin.points(), bounding_box(skin.points()));
   const Contour& contour = finder.find(glm::dvec3(10, 1, 0));
   // Closed loops still: every point has an even number of contour edges.
   std::vector<int> ends(rest.points.size(), 0);
@@ -59,9 +59,9 @@ TEST(MovingContour, ComesBackFromHavingNoArea) {
   const Rigged ball = test::on_one_node(test::sphere(3));
   const Topology rest = topology(ball.mesh);
   ContourFinder finder(ball.mesh, rest), fresh(ball.mesh, rest);
-  finder.move(rest.faces, std::vector<glm::vec3>(rest.points.size(), glm::vec3(0)));
+  finder.move(rest.faces, std::vector<glm::vec3>(rest.points.size(), glm::vec3(0)), Box{{0, 0, 0}, {0, 0, 0}});
   finder.find(glm::dvec3(0, 0, 5));
-  finder.move(rest.faces, rest.points);
+  finder.move(rest.faces, rest.points, bounding_box(rest.points));
   const Contour &a = finder.find(glm::dvec3(1, 2, 5)), &b = fresh.find(glm::dvec3(1, 2, 5));
   EXPECT_TRUE(std::equal(a.edges.begin(), a.edges.end(), b.edges.begin(), b.edges.end()));
 }

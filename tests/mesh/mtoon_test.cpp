@@ -13,7 +13,8 @@ namespace {
 using Unit = MaterialLine::Unit;
 
 // A binary glTF of three triangles, each of its own material, used in the order third, first, second.
-std::string glb_of(const std::string& materials, const std::string& extensions = "{}") {
+std::string glb_of(const std::string& materials, const std::string& extensions = "{}", const std::string& views = "",
+                   const std::string& pictures = "", const std::string& more_bytes = "") {
   std::string primitives;
   for (const char* material : {"2", "0", "1"}) {
     primitives +=
@@ -21,9 +22,9 @@ std::string glb_of(const std::string& materials, const std::string& extensions =
   }
   std::string json = R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],)"
                      R"("meshes":[{"primitives":[)" +
-                     primitives +
-                     R"(]}],"buffers":[{"byteLength":36}],)"
-                     R"("bufferViews":[{"buffer":0,"byteLength":36}],"accessors":[{"bufferView":0,)"
+                     primitives + R"(]}],"buffers":[{"byteLength":)" + std::to_string(36 + more_bytes.size()) + "}]," +
+                     pictures + R"("bufferViews":[{"buffer":0,"byteLength":36})" + views +
+                     R"(],"accessors":[{"bufferView":0,)"
                      R"("componentType":5126,"count":3,"type":"VEC3","min":[0,0,0],"max":[1,1,0]}],)"
                      R"("materials":[)" +
                      materials + R"(],"extensions":)" + extensions + "}";
@@ -33,8 +34,10 @@ std::string glb_of(const std::string& materials, const std::string& extensions =
     const auto value = static_cast<std::uint32_t>(n);
     return std::string(reinterpret_cast<const char*>(&value), 4);
   };
-  return "glTF" + number(2) + number(12 + 8 + json.size() + 8 + 36) + number(json.size()) + "JSON" + json + number(36) +
-         std::string("BIN\0", 4) + std::string(reinterpret_cast<const char*>(triangle), 36);
+  std::string binary = std::string(reinterpret_cast<const char*>(triangle), 36) + more_bytes;
+  binary.resize((binary.size() + 3) / 4 * 4, '\0');
+  return "glTF" + number(2) + number(12 + 8 + json.size() + 8 + binary.size()) + number(json.size()) + "JSON" + json +
+         number(binary.size()) + std::string("BIN\0", 4) + binary;
 }
 
 class MtoonLine : public testing::Test {
@@ -98,6 +101,34 @@ TEST_F(MtoonLine, OfVrm0IsTheSameInItsOwnUnits) {
   EXPECT_EQ(hair.line->unit, Unit::PictureHeights);
   EXPECT_FLOAT_EQ(hair.line->width, 0.002f);
   EXPECT_FALSE(named(mesh, "eye").line);
+}
+
+// A picture of 2 x 1 texels in the file's binary chunk, as a PNG: green on the left, red on the right.
+TEST_F(MtoonLine, WidthTexturesAndLightingAreRead) {
+  const unsigned char png[] = {0x89, 'P', 'N', 'G', 13,  10,  26,  10,  0,   0,   0,    13,   'I',  'H',
+                               'D',  'R', 0,   0,   0,   2,   0,   0,   0,   1,   8,    2,    0,    0,
+                               0,    123, 64,  232, 221, 0,   0,   0,   13,  'I', 'D',  'A',  'T',  120,
+                               156,  99,  96,  248, 15,  132, 12,  0,   7,   255, 1,    255,  59,   199,
+                               117,  235, 0,   0,   0,   0,   'I', 'E', 'N', 'D', 0xae, 0x42, 0x60, 0x82};
+  const std::string picture(reinterpret_cast<const char*>(png), sizeof png);
+  const std::string views = R"(,{"buffer":0,"byteOffset":36,"byteLength":)" + std::to_string(picture.size()) + "}";
+  const std::string pictures = R"("images":[{"bufferView":1,"mimeType":"image/png"}],"textures":[{"source":0}],)";
+  const std::string wide = R"("outlineWidthMode":"worldCoordinates","outlineWidthFactor":0.004)";
+  const std::string mtoon = R"("extensions":{"VRMC_materials_mtoon":{)" + wide;
+  const Mesh mesh = load(
+      glb_of(R"({"name":"skin",)" + mtoon +
+                 R"(,"outlineWidthMultiplyTexture":{"index":0},"outlineLightingMixFactor":0.25}}},{"name":"hair",)" +
+                 mtoon + R"(,"outlineWidthMultiplyTexture":{"index":7}}}},{"name":"eye",)" + mtoon + "}}}",
+             R"({"VRM":{"materialProperties":[]}})", views, pictures, picture));
+  const MaterialLine skin = named(mesh, "skin").line.value();
+  EXPECT_FLOAT_EQ(skin.lit, 0.25f);
+  EXPECT_EQ(skin.width_channel, 1);
+  ASSERT_GE(skin.width_texture, 0);
+  const Texture& texture = mesh.textures.at(static_cast<std::size_t>(skin.width_texture));
+  EXPECT_EQ(texture.width_px, 2);
+  EXPECT_EQ(texture.rgba, (std::vector<std::uint8_t>{0, 255, 0, 255, 255, 0, 0, 255}));
+  EXPECT_EQ(named(mesh, "hair").line->width_texture, -1) << "there is no such texture";
+  EXPECT_EQ(named(mesh, "hair").line->lit, 1) << "as VRM 1.0 has it by default";
 }
 
 TEST_F(MtoonLine, ValuesThatMakeNoSenseAreNoLine) {

@@ -78,6 +78,40 @@ TEST(FileLine, PartsOfThePictureAreItsCamerasPixels) {
   EXPECT_EQ(object.outline->weight.of_file[1], 1);  // in another unit than most of the surface
 }
 
+// A texture black on the left and green on the right: the skin's width there, and nobody else's.
+TEST(FileLine, WidthTextureMultipliesTheWidth) {
+  mesh::Mesh mesh = figure(Unit::Metres, Unit::Metres);
+  mesh.textures.push_back({2, 1, {255, 0, 0, 255, 255, 255, 0, 255}});
+  for (const glm::vec3& p : mesh.positions) mesh.uvs.emplace_back(p.x < 0 ? 0.25f : 0.75f, 0.5f);
+  for (std::size_t m : {0u, 1u}) mesh.materials[m].line->width = 0.01f;
+  mesh.materials[2].line = mesh.materials[1].line;
+  const std::vector<float> even = line_weights(with_file_line(outlined(), mesh, 1, {}), mesh);
+  EXPECT_TRUE(even.empty()) << "one width for all";
+  for (mesh::Material& material : mesh.materials) {
+    material.line->width_texture = 0;
+    material.line->width_channel = 1;
+  }
+  const std::vector<float> weights = line_weights(with_file_line(outlined(), mesh, 1, {}), mesh);
+  ASSERT_EQ(weights.size(), mesh.point_count);
+  for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
+    EXPECT_NEAR(weights[mesh.welded[v]], mesh.positions[v].x < 0 ? 0.002f : 1, 1e-6) << "not below what can't be seen";
+  }
+}
+
+TEST(FileLine, LightingMixesWithTheSurfacesColour) {
+  mesh::Mesh mesh = figure(Unit::Metres, Unit::Metres);
+  mesh.materials[0].base_colour = {1, 0.5f, 0, 1};
+  mesh.materials[0].line->colour = {1, 1, 1};
+  const auto ink = [&](float mix) {
+    mesh.materials[0].line->lit = mix;
+    return with_file_line(outlined(), mesh, 1, {}).outline->colour;
+  };
+  EXPECT_EQ(ink(0), (std::array<double, 3>{1, 1, 1}));
+  EXPECT_NEAR(ink(1)[1], 0.5, 1e-6);
+  EXPECT_NEAR(ink(1)[2], 0, 1e-6);
+  EXPECT_NEAR(ink(0.5f)[2], 0.7354, 1e-3);  // sRGB of linear 0.5
+}
+
 TEST(FileLine, AbsurdWidthsAreThoseThatAScenesLimitsAllow) {
   mesh::Mesh mesh = figure(Unit::Metres, Unit::Metres);
   for (mesh::Material& material : mesh.materials) {

@@ -309,10 +309,6 @@ INSTANTIATE_TEST_SUITE_P(
             "AnimatedFluffLists", object + "animation = true\nfluffy = { cut = \"regions\" }\n",
             "DIR/scene.toml:9:10: 'fluffy' in [[object]] is cut by lists made of a mesh that stands still, but the "
             "object has 'animation'; give cut = \"exact\" or \"gpu\""},
-        BadScene{"AnimatedStrokes", object + "animation = true\noutline = { method = \"strokes\" }\n",
-                 "DIR/scene.toml:9:11: 'outline' in [[object]] has lines that need a mesh that stands still, but the "
-                 "object has 'animation'; take another method than \"z_lines\", \"hidden_lines\", \"isophote\", "
-                 "\"wobble\" and \"strokes\", without inner lines"},
         BadScene{"ClipFlag", object + "animation = { clip = true }\n",
                  "DIR/scene.toml:8:22: 'clip' in animation of [[object]] must be a clip's name or its number, counted "
                  "from 0, found true"},

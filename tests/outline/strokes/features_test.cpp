@@ -78,6 +78,59 @@ TEST(RadialCurvature, OfABallIsOneOverItsRadius) {
   }
 }
 
+// Two boxes that cut through each other: where one is taken away, the line's places are half-way, and how far apart the
+// boxes have come is known; where both go together, the line goes with them.
+TEST(Features, CutsGoWithTheFacesThatTheyAreIn) {
+  mesh::Mesh mesh = test::cube();
+  const std::size_t first = mesh.positions.size();
+  test::append(mesh, test::cube(), {1, 0.5f, 0.25f});
+  FeatureOptions only_cuts;
+  only_cuts.creases = only_cuts.materials = false;
+  const Features found = find_features(mesh, mesh::topology(mesh), only_cuts);
+  ASSERT_EQ(found.cut_places.size(), found.more_positions.size());
+  const auto moved = [&](const glm::vec3& one, const glm::vec3& other) {
+    std::vector<glm::vec3> positions = mesh.positions;
+    for (std::size_t v = 0; v < positions.size(); ++v) positions[v] += v < first ? one : other;
+    MovedCuts cuts;
+    cuts.move(found.cut_places, {reinterpret_cast<const std::byte*>(positions.data())});
+    return cuts;
+  };
+  const glm::vec3 way(0.3f, -0.2f, 0.6f);
+  const MovedCuts together = moved(way, way), parted = moved({0, 0, 0}, way);
+  for (std::size_t i = 0; i < found.more_positions.size(); ++i) {
+    constexpr double rounding = 1e-6;
+    EXPECT_NEAR(glm::distance(together.positions[i], found.more_positions[i] + way), 0, rounding);
+    EXPECT_NEAR(together.apart[i], 0, rounding);
+    EXPECT_NEAR(glm::distance(parted.positions[i], found.more_positions[i] + way * 0.5f), 0, rounding);
+    EXPECT_NEAR(parted.apart[i], glm::length(way), rounding);
+  }
+}
+
+// A ball that becomes an ellipsoid, looked at anew at some points only.
+TEST(RadialCurvature, OfAShapeThatMovesIsThatOfItsPose) {
+  mesh::Mesh mesh = test::sphere(4);
+  const mesh::Topology rest = mesh::topology(mesh);
+  for (glm::vec3& p : mesh.positions) p *= glm::vec3(1, 1.6f, 0.7f);
+  const mesh::Topology posed = mesh::topology(mesh);
+  RadialCurvature moved(rest);
+  const RadialCurvature fresh(posed);
+  std::vector<std::uint32_t> wanted;
+  for (std::uint32_t p = 0; p < rest.points.size(); p += 97) wanted.insert(wanted.end(), {p, p});
+  moved.move(posed.points, posed.outline_normals, wanted);
+  const glm::vec3 ways[] = {{1, 0.3f, -2}, {0, 1, 0}};
+  for (const std::uint32_t p : wanted) {
+    for (const glm::vec3& way : ways) EXPECT_EQ(moved.at(p, way), fresh.at(p, way));
+  }
+  // At the end of the long axis, b / a^2 and b / c^2 in the two directions across it; the fit over three rings of
+  // chords a fifteenth of a turn long flattens the tip by a tenth.
+  std::uint32_t tip = 0;
+  for (std::uint32_t p = 0; p < posed.points.size(); ++p) tip = posed.points[p].y > posed.points[tip].y ? p : tip;
+  const std::uint32_t one[] = {tip};
+  moved.move(posed.points, posed.outline_normals, one);
+  EXPECT_NEAR(moved.at(tip, {1, 0, 0}), 1.6, 0.16);
+  EXPECT_NEAR(moved.at(tip, {0, 0, 1}), 1.6 / 0.49, 0.33);
+}
+
 TEST(RadialCurvature, OfATorusDependsOnTheDirection) {
   const test::Torus torus;
   const auto surface = [&](double u, double v) {

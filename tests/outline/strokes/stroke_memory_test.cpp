@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
@@ -20,25 +21,42 @@ glm::mat4 camera(const glm::vec2& moved = {0, 0}, float zoom = 1) {
   return m;
 }
 
-// A line through given points, as a frame sees it.
-StrokePath traced(const std::vector<glm::vec3>& points, const glm::mat4& to_pixels, bool closed) {
-  std::vector<std::uint32_t> numbers;
-  for (std::uint32_t i = 0; i < points.size(); ++i) numbers.push_back(i);
-  const std::vector<float> widths(points.size(), 3.0f);
+LinePoints line_points(const std::vector<glm::vec3>& points) {
+  return {{reinterpret_cast<const std::byte*>(points.data()), sizeof(glm::vec3)}, points.size()};
+}
+
+// A line through some of given points, as a frame sees it.
+StrokePath traced(const std::vector<glm::vec3>& points, const std::vector<std::uint32_t>& numbers,
+                  const glm::mat4& to_pixels, bool closed) {
+  const std::vector<float> widths(numbers.size(), 3.0f);
   StrokePath path;
-  path.trace(numbers, widths, {reinterpret_cast<const std::byte*>(points.data()), sizeof(glm::vec3)}, {}, points.size(),
-             to_pixels, closed, {});
+  path.trace(numbers, widths, line_points(points), to_pixels, closed, {});
   return path;
 }
 
-std::vector<glm::vec3> ring(float radius, int start, int count = 120) {
+// Through all of them.
+StrokePath traced(const std::vector<glm::vec3>& points, const glm::mat4& to_pixels, bool closed) {
+  std::vector<std::uint32_t> numbers(points.size());
+  std::iota(numbers.begin(), numbers.end(), 0u);
+  return traced(points, numbers, to_pixels, closed);
+}
+
+constexpr int ring_count = 120;
+
+std::vector<glm::vec3> ring(float radius) {
   std::vector<glm::vec3> points;
-  for (int i = 0; i <= count; ++i) {
-    const float turn =
-        2 * std::numbers::pi_v<float> * static_cast<float>((i + start) % count) / static_cast<float>(count);
+  for (int i = 0; i < ring_count; ++i) {
+    const float turn = 2 * std::numbers::pi_v<float> * static_cast<float>(i) / static_cast<float>(ring_count);
     points.emplace_back(radius * std::cos(turn), radius * std::sin(turn), 1);
   }
   return points;
+}
+
+// Once around, from one of its points.
+std::vector<std::uint32_t> around_from(int start) {
+  std::vector<std::uint32_t> numbers;
+  for (int i = 0; i <= ring_count; ++i) numbers.push_back(static_cast<std::uint32_t>((i + start) % ring_count));
+  return numbers;
 }
 
 // Where along its stroke the line is at its place nearest to a pixel, in periods.
@@ -55,13 +73,14 @@ float phase_at(const StrokePath& path, const StrokeFit& fit, const glm::vec2& px
 
 TEST(StrokeMemory, LoopThatBeginsElsewhereEachFrameKeepsItsStrokes) {
   constexpr float period = 60;
+  const std::vector<glm::vec3> points = ring(80);
   StrokeMemory memory;
   float before = 0, worst = 0;
   for (int frame = 0; frame < 40; ++frame) {
     // The camera moves by a pixel and a half a frame, and linking begins at another vertex.
     const glm::vec2 moved(300 + 1.5f * static_cast<float>(frame), 200);
-    const StrokePath path = traced(ring(80, 37 * frame), camera(moved), true);
-    memory.begin(camera(moved));
+    const StrokePath path = traced(points, around_from(37 * frame), camera(moved), true);
+    memory.begin(line_points(points), camera(moved));
     const StrokeFit fit = memory.fit(path, period);
     memory.remember(path, fit);
     const float phase = phase_at(path, fit, moved + glm::vec2(0, 80), period);
@@ -76,18 +95,45 @@ TEST(StrokeMemory, LoopThatBeginsElsewhereEachFrameKeepsItsStrokes) {
 }
 
 TEST(StrokeMemory, LineThatGrowsAtItsBeginningKeepsItsStrokes) {
+  std::vector<glm::vec3> points;
+  for (int x = 300; x >= 20; x -= 4) points.emplace_back(static_cast<float>(x), 50, 1);
   StrokeMemory memory;
   float first = 0;
   for (int frame = 0; frame < 20; ++frame) {
-    std::vector<glm::vec3> points;
-    for (int x = 100 - 4 * frame; x <= 300; x += 4) points.emplace_back(static_cast<float>(x), 50, 1);
-    const StrokePath path = traced(points, camera(), false);
-    memory.begin(camera());
+    std::vector<std::uint32_t> numbers(static_cast<std::size_t>(51 + frame));
+    std::iota(numbers.rbegin(), numbers.rend(), 0u);
+    const StrokePath path = traced(points, numbers, camera(), false);
+    memory.begin(line_points(points), camera());
     const StrokeFit fit = memory.fit(path, 0);
     memory.remember(path, fit);
     const float u = fit.scale * (200 - path.samples()[0].px.x) + fit.offset_px;
     if (frame == 0) first = u;
     EXPECT_NEAR(u, first, 3) << "frame " << frame;  // within a sample
+  }
+}
+
+// Nothing but the shape moves, farther from frame to frame than a line is looked for: it is looked for where the shape
+// has taken it.
+TEST(StrokeMemory, LineOnAShapeThatMovesKeepsItsStrokes) {
+  constexpr float period = 60;
+  StrokeMemory memory;
+  float before = 0;
+  for (int frame = 0; frame < 12; ++frame) {
+    std::vector<glm::vec3> points = ring(80);
+    for (glm::vec3& p : points) {
+      p.x += 300 + 25 * static_cast<float>(frame);
+      p.y = 200 + p.y * (1 + 0.01f * static_cast<float>(frame));
+    }
+    const StrokePath path = traced(points, around_from(53 * frame), camera(), true);
+    memory.begin(line_points(points), camera());
+    const StrokeFit fit = memory.fit(path, period);
+    memory.remember(path, fit);
+    const float phase = phase_at(path, fit, glm::vec2(points[30]), period);
+    if (frame > 0) {
+      const float change = std::abs(phase - before);
+      EXPECT_LT(std::min(change, 1 - change) * period, 3) << "frame " << frame << ", a sample";
+    }
+    before = phase;
   }
 }
 
@@ -99,7 +145,7 @@ TEST(StrokeMemory, StretchedStrokesGoBackToTheirLength) {
   for (int frame = 0; frame < 120; ++frame) {
     const float zoom = 1 + 0.02f * static_cast<float>(std::min(frame, 10));
     const StrokePath path = traced(points, camera({0, 0}, zoom), false);
-    memory.begin(camera({0, 0}, zoom));
+    memory.begin(line_points(points), camera({0, 0}, zoom));
     const StrokeFit fit = memory.fit(path, 0);
     memory.remember(path, fit);
     scale = fit.scale;
@@ -111,8 +157,9 @@ TEST(StrokeMemory, StretchedStrokesGoBackToTheirLength) {
 
 TEST(StrokeMemory, LoopsHoldWholeStrokes) {
   StrokeMemory memory;
-  memory.begin(camera({300, 200}));
-  const StrokePath path = traced(ring(80, 0), camera({300, 200}), true);
+  const std::vector<glm::vec3> points = ring(80);
+  memory.begin(line_points(points), camera({300, 200}));
+  const StrokePath path = traced(points, around_from(0), camera({300, 200}), true);
   const StrokeFit fit = memory.fit(path, 60);
   const float strokes = fit.scale * path.length_px() / 60;
   EXPECT_NEAR(strokes, std::round(strokes), 1e-3);
@@ -145,7 +192,7 @@ TEST(StrokeMesh, BandLiesWhereItShould) {
   const StrokePath path = traced(points, camera(), false);
   for (const bool outside : {false, true}) {
     StrokeMesh strips;
-    strips.add(path, {}, {outside, false, 0, 1, 0});
+    strips.add(path, {}, {.outside = outside});
     float low = 1e9f, high = -1e9f;
     for (const StrokeVertex& v : strips.vertices())
       low = std::min(low, v.push_px.y), high = std::max(high, v.push_px.y);
@@ -159,17 +206,37 @@ TEST(StrokeMesh, BandLiesWhereItShould) {
 TEST(StrokeMemory, AllocatesNothingOnceWarm) {
   StrokeMemory memory;
   StrokeMesh strips;
-  const StrokePath path = traced(ring(80, 0), camera({300, 200}), true);
+  const std::vector<glm::vec3> points = ring(80);
+  const StrokePath path = traced(points, around_from(0), camera({300, 200}), true);
   long before = 0;
   for (int frame = 0; frame < 6; ++frame) {
     if (frame == 3) before = test::allocations();
-    memory.begin(camera({300, 200}));
+    memory.begin(line_points(points), camera({300, 200}));
     const StrokeFit fit = memory.fit(path, 60);
     memory.remember(path, fit);
     strips.clear();
-    strips.add(path, fit, {true, false, 0.5f, 20, 0});
+    strips.add(path, fit, {.outside = true, .wobble = 0.5f, .wave = 20});
   }
   EXPECT_EQ(test::allocations(), before);
+}
+
+// What a wobble is fixed to is the shape, so its picture moves along when the shape does.
+TEST(StrokeMesh, WobblesGoWithTheShape) {
+  const auto widths_of = [](const std::vector<glm::vec3>& points, const LinePoints* rest) {
+    const StrokePath path = traced(points, camera(), false);
+    StrokeMesh strips;
+    strips.add(path, {}, {.wobble = 0.6f, .wave = 15, .rest = rest});
+    std::vector<float> widths;
+    for (const StrokeVertex& v : strips.vertices()) widths.push_back(v.half_px);
+    return widths;
+  };
+  std::vector<glm::vec3> points, moved;
+  for (int x = 0; x <= 100; x += 10) points.emplace_back(static_cast<float>(x), 0, 1);
+  for (const glm::vec3& p : points) moved.push_back(p + glm::vec3(37, 21, 0));
+  const LinePoints rest = line_points(points);
+  const std::vector<float> before = widths_of(points, nullptr);
+  EXPECT_EQ(widths_of(moved, &rest), before);
+  EXPECT_NE(widths_of(moved, nullptr), before) << "in a place of its own it would wobble otherwise";
 }
 
 TEST(SmoothNoise, IsTheSameForTheSamePlaceAndAnotherForAnotherDraft) {
