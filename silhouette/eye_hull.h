@@ -28,7 +28,7 @@ class EyeHull {
   const glm::dvec3& middle() const { return middle_; }
 
   /// Whether a triangle with a corner there (inside the unit sphere), the cross product `normal` of two edges and the
-  /// longest edge's square faces every hull vertex, and looks no flatter than classify() asks for.
+  /// longest edge's square faces every hull vertex, and looks no flatter than kFlattest.
   bool sees_front(const glm::dvec3& corner, const glm::dvec3& normal, double longest_sq) const {
     const double offset = glm::dot(normal, corner);
     for (const Vertex& v : vertices_) {

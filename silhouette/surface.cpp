@@ -125,15 +125,18 @@ std::vector<std::uint32_t> full_list(const Surface& surface) {
 }
 
 double least_radius_px(const Surface& surface) {
-  constexpr double least_edge_px = 8.0 / 256;
-  double edges = 0;
+  constexpr double least_edge_px = 32.0 / 256;
+  std::vector<double> edges;
+  edges.reserve(3 * surface.triangles.size());
   for (const glm::uvec3& t : surface.triangles) {
     for (int k = 0; k < 3; ++k) {
-      edges += static_cast<double>(glm::distance(surface.points[t[k]], surface.points[t[(k + 1) % 3]]));
+      edges.push_back(static_cast<double>(glm::distance(surface.points[t[k]], surface.points[t[(k + 1) % 3]])));
     }
   }
-  const double mean_edge = edges / (3 * static_cast<double>(surface.triangles.size()) * surface.frame.radius);
-  return mean_edge > 0 ? least_edge_px / mean_edge : std::numeric_limits<double>::infinity();
+  const auto quarter = edges.begin() + static_cast<std::ptrdiff_t>(edges.size() / 4);
+  std::nth_element(edges.begin(), quarter, edges.end());
+  const double edge = *quarter / surface.frame.radius;
+  return edge > 0 ? least_edge_px / edge : std::numeric_limits<double>::infinity();
 }
 
 }  // namespace rinkaku::silhouette

@@ -54,8 +54,9 @@ Surface make_surface(const mesh::Mesh& mesh, const mesh::Topology& topology);
 std::vector<std::uint32_t> full_list(const Surface& surface);
 
 /// How many pixels the radius of the unit frame must take in a picture for region lists to cover what the whole surface
-/// covers. Rasterisers snap vertices to a grid (1/256 pixel); where edges are a few steps long, triangles turn over,
-/// and which pixels folds cover depends on the triangles. Asked for are edges of 8 steps on average.
+/// covers. Rasterisers snap vertices to a grid (1/256 pixel); where edges are few steps long, triangles turn over,
+/// and which pixels folds cover depends on the triangles. Asked for are 32 steps for three edges of four.
+/// Precondition: the surface has a triangle. Cost: linear.
 double least_radius_px(const Surface& surface);
 
 /// How many pixels a ball's radius takes at its far side, seen from `distance` to its middle.

@@ -45,9 +45,8 @@ TEST(Surface, OpenMeshGetsAReversedCopyOfEachTriangle) {
 }
 
 // A square's two triangles have sides of 1, 1 and sqrt(2), and its bounding sphere the radius sqrt(1/2).
-TEST(Surface, ListsHoldWhileEdgesTakeAThirtySecondOfAPixel) {
-  const double mean_edge = (2 + std::sqrt(2.0)) / 3, radius = std::sqrt(0.5);
-  const double expected_px = radius / mean_edge / 32;
+TEST(Surface, ListsHoldWhileThreeEdgesOfFourTakeAnEighthOfAPixel) {
+  const double expected_px = std::sqrt(0.5) / 8;
   EXPECT_NEAR(least_radius_px(surface_of(test::square())), expected_px, 1e-6);  // positions are floats
   auto larger = test::square();
   for (glm::vec3& p : larger.positions) p *= 1000.0f;
