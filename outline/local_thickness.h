@@ -14,8 +14,10 @@ namespace rinkaku::outline {
 /// sharp edges.
 ///
 /// Each component counts by itself. Where most rays find no wall (the tip of a needle, a border), a point has the mean
-/// of its neighbours'; what has no wall at all, as an open sheet, has the diagonal of the mesh's box. The result is
-/// averaged twice over neighbours. Finite and at least 0. Cost: about 7 microseconds a point; allocates.
+/// of its neighbours'; what has no wall at all, as an open sheet, has the diagonal of the mesh's box. Of 10,000
+/// points and more about every third is looked at, the others have the mean of those beside them. The result is
+/// averaged eight times over neighbours. Finite and at least 0. Cost: about 4 microseconds a point, of fewer points 10;
+/// allocates.
 std::vector<float> local_thickness(const mesh::Topology& topology);
 
 }  // namespace rinkaku::outline

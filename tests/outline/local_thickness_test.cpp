@@ -52,12 +52,12 @@ TEST(LocalThickness, IsThatOfAPlate) {
     for (std::size_t p = 0; p < found.size(); ++p) {
       const glm::vec3& at = surface.points[p];
       // Farther from the rim than smoothing reaches.
-      if (std::max(std::abs(at.x), std::abs(at.y)) > 0.7) continue;
+      if (std::max(std::abs(at.x), std::abs(at.y)) > 0.4) continue;
       // Six of seven rays lean by 20 degrees; float rounding.
       EXPECT_NEAR(found[p], thickness / cos20, 1e-3 * thickness);
       ++looked;
     }
-    EXPECT_GT(looked, 500);
+    EXPECT_GT(looked, 300);
   }
 }
 
@@ -70,13 +70,22 @@ TEST(LocalThickness, IsThatOfABallAtAnySize) {
   }
 }
 
+// Where only some points have rays, the others have what is beside them.
+TEST(LocalThickness, OfAFineMeshIsThatOfACoarseOne) {
+  const mesh::Topology fine =
+      turned(160, 80, [](double v) { return glm::dvec2(std::sin(turn / 2 * v), -std::cos(turn / 2 * v)); });
+  ASSERT_GT(fine.points.size(), 12000u);
+  // As above; triangles are less than half as large.
+  for (const float found : local_thickness(fine)) EXPECT_NEAR(found / 2, cos20, 0.02);
+}
+
 // Rays across the axis take D cos 20°, along it D / cos 20°.
 TEST(LocalThickness, IsThatOfARod) {
   const double diameter = 0.1;
   const mesh::Topology rod = turned(24, 60, [&](double v) { return glm::dvec2(diameter / 2, v); });
   const std::vector<float> found = local_thickness(rod);
   for (std::size_t p = 0; p < found.size(); ++p) {
-    if (std::abs(rod.points[p].z - 0.5) > 0.4) continue;
+    if (std::abs(rod.points[p].z - 0.5) > 0.3) continue;
     EXPECT_GT(found[p], diameter * cos20 * 0.99);  // 1 - cos(7.5 degrees): the polygon's flat sides
     EXPECT_LT(found[p], diameter / cos20 * 1.001);
   }
@@ -95,7 +104,7 @@ TEST(LocalThickness, GoesToNothingAtAConesTip) {
     if (depth > 0.6) continue;  // leaning rays meet the base
     const double way = depth / std::cos(a);
     // Leaning towards the tip a ray is shorter by 5 %, away from it longer by a fifth; the middle of seven is within a
-    // tenth. At the tip itself, averaging takes in three rings of a hundredth each.
+    // tenth. At the tip itself, averaging eight times takes in some three rings of a hundredth each.
     EXPECT_NEAR(found[p], way * std::tan(2 * a), 0.1 * way * std::tan(2 * a) + 0.03 * std::tan(2 * a)) << depth;
   }
 }
