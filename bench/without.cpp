@@ -19,6 +19,7 @@ struct WaterStage::Parts {};
 WaterStage::WaterStage(const Scene&, const CameraModel&, double, Drawing&) { refuse("water"); }
 WaterStage::~WaterStage() = default;
 WaterStage::WaterStage(WaterStage&&) noexcept = default;
+std::int64_t WaterStage::first_remembered(std::int64_t frame) const { return frame; }
 void WaterStage::look(const Frame&, const RigidTransform&, double) {}
 const std::vector<std::string>& WaterStage::notices() const { refuse("water"); }
 

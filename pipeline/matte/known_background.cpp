@@ -58,7 +58,7 @@ void KnownBackground::solve(const Picture& picture, const cv::Mat& rough, const 
   }
   cv::blur(difference_, difference_, {3, 3});
   cv::dilate(difference_, strongest_, cv::getStructuringElement(cv::MORPH_RECT, {5, 5}));
-  cv::GaussianBlur(mask, soft_, {}, 2);
+  cv::GaussianBlur(mask, soft_, {}, 3);
 
   cv::Mat alpha(matte.height_px, matte.width_px, CV_8U, matte.alpha.data());
   alpha = alpha(as_rect(rect));
@@ -80,7 +80,7 @@ void KnownBackground::solve(const Picture& picture, const cv::Mat& rough, const 
                            std::max({0.86f * m[x] - options.noise, 0.5f * std::sqrt(length2), 2 * options.noise});
       // Each errs towards too little: by colour where the thing is of several colours, by strength where it is faint.
       const auto [less, more] = std::minmax({std::clamp(along, 0.f, 1.f), std::clamp(beside, 0.f, 1.f)});
-      const float by_colour = 0.3f * less + 0.7f * more;
+      const float by_colour = 0.27f * less + 0.73f * more;
       const float contrast = std::max(m[x], std::sqrt(length2));
       const float trust = std::clamp((contrast - 2 * options.noise) / (5 * options.noise), 0.f, 1.f);
       out[x] = level(255 * trust * by_colour + (1 - trust) * soft[x]);
