@@ -9,6 +9,7 @@
 #include <benchmark/benchmark.h>
 
 #include "mesh/topology.h"
+#include "outline/local_thickness.h"
 #include "outline/pass/curvature_pass.h"
 #include "pipeline/frame/error.h"
 #include "pipeline/gl/context.h"
@@ -53,6 +54,12 @@ void gpu_every_frame(benchmark::State& state) {
   }
 }
 BENCHMARK(gpu_every_frame)->Unit(benchmark::kMillisecond)->UseRealTime();
+
+// Once for an object whose line follows curvature.
+void thickness(benchmark::State& state) {
+  for (auto _ : state) benchmark::DoNotOptimize(outline::local_thickness(surface()).data());
+}
+BENCHMARK(thickness)->Unit(benchmark::kMillisecond);
 
 void set_up(benchmark::State& state, outline::CurvatureMethod method) {
   for (auto _ : state) benchmark::DoNotOptimize(outline::CurvatureSolver(surface(), method).stars().corners.data());

@@ -271,7 +271,10 @@ void Run::add_lens() {
 void Run::add_layer_files() {
   if (!runs("layers")) return;
   layers_.emplace(prepared_, options_, described());
-  line_.add(Group::Composite, "layers", [this](Work& work) { layers_->write(work, cg_opacity(work)); });
+  line_.add(Group::Composite, "layers", [this](Work& work) {
+    if (!drawing_) empty_layers(work);
+    layers_->write(work, cg_opacity(work));
+  });
 }
 
 void Run::add_merging() {

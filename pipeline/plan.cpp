@@ -102,10 +102,10 @@ Verdict shading_scale(const Facts& f) {
   const std::string coarse = names_of(f, has_coarse_colour);
   const std::string plain =
       names_of(f, [](const ObjectScene& o) { return o.shading_scale > 1 && !has_coarse_colour(o); });
-  const std::string no_gain = plain.empty() ? "" : "nothing is gained for " + plain + ", which has one colour";
+  const std::string no_gain = plain.empty() ? "" : "nothing is gained for " + plain + ", of one colour";
   if (coarse.empty()) return {false, plain.empty() ? "no object has a shading_scale above 1" : no_gain};
   return {true, coarse +
-                    " is coloured at a lower resolution; edges, lines and fluff are not. Saves work only where "
+                    ": coloured at a lower resolution; edges, lines and fluff are not. Saves work only where "
                     "colouring a pixel costs more than ten lookups" +
                     (plain.empty() ? "" : "; " + no_gain)};
 }

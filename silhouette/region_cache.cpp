@@ -56,8 +56,11 @@ fs::path region_cache_folder() {
 fs::path cached_region_file(const Surface& surface, const BakeOptions& options) {
   const fs::path folder = region_cache_folder();
   if (folder.empty()) return {};
+  // Lists that other rules chose are other lists.
+  constexpr int rules = 2;
   std::ostringstream name;
-  name << std::hex << surface.hash << '-' << hash_of(options) << "-v" << std::dec << RegionFile::kVersion << ".rgn";
+  name << std::hex << surface.hash << '-' << hash_of(options) << "-v" << std::dec << RegionFile::kVersion << '.'
+       << rules << ".rgn";
   return folder / name.str();
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -100,8 +101,8 @@ struct SheetCall {
   int columns = 4;
   double turn_deg = 35;
   double raise_deg = 20;
-  std::string clip;   ///< empty: the first one, if a time is given, else the mesh at rest
-  double time_s = 0;  ///< of the clip
+  std::string clip;              ///< empty: the first one, if a time is given, else the mesh at rest
+  std::optional<double> time_s;  ///< of the clip
   bool force = false;
   bool json = false;
 };

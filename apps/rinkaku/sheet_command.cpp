@@ -39,7 +39,7 @@ std::vector<pipeline::SheetCell> chosen(const std::vector<pipeline::SheetCell>& 
 int sheet(const SheetCall& call) {
   check_picture_file(call.output, call.mesh, call.force);
   const std::vector<pipeline::SheetCell> cells = chosen(pipeline::all_styles(call.width_px), call.styles);
-  const bool moves = !call.clip.empty() || call.time_s != 0;
+  const bool moves = !call.clip.empty() || call.time_s.has_value();
   const mesh::Imported imported = mesh::import(call.mesh, {.rig = moves});
   pipeline::SheetOptions options;
   if (moves && imported.rig.animations.empty()) {
@@ -48,7 +48,7 @@ int sheet(const SheetCall& call) {
   if (moves) {
     const pipeline::AnimationScene animation{.clip_name = call.clip, .where = "--clip"};
     options.portrait.motion = {&imported.rig, pipeline::playback(animation, imported.rig, call.mesh)};
-    options.portrait.time_s = call.time_s;
+    options.portrait.time_s = call.time_s.value_or(0);
   }
   options.portrait.width_px = options.portrait.height_px = call.cell_px;
   options.portrait.up = imported.summary.up;

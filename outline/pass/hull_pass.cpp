@@ -16,8 +16,12 @@ constexpr float kLeanBack = 3;
 }  // namespace
 
 HullPass::HullPass(passes::DrawnObject& object, const HullOptions& options) : object_(object), options_(options) {
-  object_.ask_for_lines(options.style);
-  options_.style.factors = {};
+  if (options_.width_m <= 0) options_.least_px = options_.most_px = options_.width_px;
+  passes::LineStyle& style = options_.style;
+  style.width_px = options_.width_m > 0 ? 0 : options_.width_px, style.width_m = options_.width_m;
+  style.least_px = options_.least_px, style.most_px = options_.most_px;
+  object_.ask_for_lines(style);
+  style.factors = {}, style.most_added_m = {};
   const std::string_view vertex[] = {embedded::hull_vert};
   const std::string_view fragment[] = {embedded::hull_frag};
   program_ = gl::Program("outline", {}, vertex, fragment);
@@ -27,7 +31,6 @@ HullPass::HullPass(passes::DrawnObject& object, const HullOptions& options) : ob
   soft_ = program_.uniform("soft");
   beyond_ = program_.uniform("beyond");
   back_ = program_.uniform("back");
-  if (options_.width_m <= 0) options_.least_px = options_.most_px = options_.width_px;
   const GLuint name = program_.name();
   glProgramUniform2f(name, program_.uniform("width_limits_px"), options_.least_px, options_.most_px);
   glProgramUniform1f(name, program_.uniform("largest_factor"), object_.shape().largest_line_factor());

@@ -13,7 +13,7 @@ struct HullOptions {
   float width_m = 0;                      ///< above 0: the line is as wide as something of this size at its depth
   float least_px = 0, most_px = 40;       ///< between which width_m stays
   glm::vec3 colour{0.07f, 0.05f, 0.09f};  ///< sRGB-encoded
-  passes::LineStyle style{};              ///< its factors are read at construction only
+  passes::LineStyle style{};              ///< read at construction only; its base line is that of these options
 };
 
 /// Draws a line around an object by its hull: the mesh pushed outwards along welded normals, seen from within (Raskar

@@ -250,7 +250,7 @@ void StrokePass::draw_depth(const passes::DrawCall& call, const passes::PixelRec
 }
 
 void StrokePass::draw_edges(const passes::DrawCall& call) {
-  collect(call);
+  if (!call.lines_only) collect(call);  // else they are those of the picture that was just drawn
   const passes::Look& look = object_.shape().last_look();
   const passes::PixelRect rect = intersection(look.bounds, call.rect);
   if (strips_.indices().empty() || rect.empty()) return;

@@ -26,7 +26,9 @@ void SurfaceBuffer::draw(passes::DrawnObject& object, const passes::DrawCall& ca
   glViewport(fineness_ * (call.rect.x_px - rect.x_px) + kMargin, fineness_ * (call.rect.y_px - rect.y_px) + kMargin,
              fineness_ * call.rect.width_px, fineness_ * call.rect.height_px);
   if (!program_) {
-    body->draw_surface(call);
+    passes::DrawCall there = call;
+    there.elsewhere = true;
+    body->draw_surface(there);
     return;
   }
   const glm::mat3 camera_from_normal =

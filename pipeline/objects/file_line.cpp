@@ -33,7 +33,7 @@ glm::vec3 surface_colour(const mesh::Mesh& mesh, const mesh::Material& material)
   const std::vector<std::uint8_t>& rgba = mesh.textures[static_cast<std::size_t>(material.texture)].rgba;
   glm::vec3 sum(0);
   float covered = 0;
-  constexpr std::size_t step = 4 * 7;  // every seventh texel, which no width is a multiple of for long
+  constexpr std::size_t step = 4 * 7;  // every seventh texel is enough for a mean
   for (std::size_t i = 0; i + 3 < rgba.size(); i += step) {
     const float alpha = static_cast<float>(rgba[i + 3]) / 255;
     for (int k = 0; k < 3; ++k)

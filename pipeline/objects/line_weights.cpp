@@ -42,8 +42,7 @@ void weigh_by_paint(const ObjectScene& object, const mesh::Mesh& mesh, std::vect
   means.multiply(weights);
 }
 
-// Between texels; the image repeats.
-// `value` of a texel's four bytes is what is interpolated.
+// Of a repeating image, between texels; `value` of a texel's four bytes is what is interpolated.
 template <class Value>
 float value_at(const mesh::Texture& image, const glm::vec2& uv, Value value) {
   const auto texel = [&](int x, int y) -> float {

@@ -15,6 +15,7 @@
 #include "mesh/bounds.h"
 #include "mesh/topology.h"
 #include "outline/line_width.h"
+#include "outline/local_thickness.h"
 #include "outline/pass/hull_pass.h"
 #include "outline/strokes/bristles.h"
 #include "outline/styles/facing_pass.h"
@@ -294,6 +295,11 @@ passes::LineStyle line_style(const mesh::Mesh& mesh, const OutlineScene& line, c
   const bool follows = line.method == M::Curvature || line.method == M::Control;
   if (!follows && !line.weight.any()) return style;
   const mesh::Topology topology = mesh::topology(mesh);
+  if (follows && line.exaggeration > 0 && line.thickness_part > 0) {
+    style.most_added_m = outline::local_thickness(topology);
+    const double unit_m = std::cbrt(std::abs(glm::determinant(glm::dmat3(around.world_from_object))));
+    for (float& t : style.most_added_m) t *= static_cast<float>(line.thickness_part * unit_m);
+  }
   const auto weight = std::make_shared<Weight>(line.weight, around);
   const auto follow = [&](auto widths) {
     if (around.moves) {

@@ -61,6 +61,8 @@ void LineStrips::style(const LineStyle& style) {
   factors_.assign(style.factors.begin(), style.factors.end());
   factors_.resize(hard_.size(), 1.0f);
   largest_factor_ = factors_.empty() ? 1.0f : *std::max_element(factors_.begin(), factors_.end());
+  most_added_m_ = style.most_added_m;
+  width_px_ = style.width_px, width_m_ = style.width_m, least_px_ = style.least_px, most_px_ = style.most_px;
   follow_ = style.follow;
   if (follow_) largest_factor_ = std::max(largest_factor_, style.most_factor);
 }
@@ -74,6 +76,14 @@ void LineStrips::find_factors(const ContourStrips& contour, std::span<const glm:
     wanted_.push_back(welded_[piece.to]);
   }
   follow_({points, outline_normals, wanted_, factors_});
+}
+
+// The factor of a place, or what adds the most that may be added there.
+float LineStrips::limited(const Place& place, float focal_px) const {
+  if (most_added_m_.empty() || place.factor <= 1 || !(place.seen.z > 0)) return place.factor;
+  const float px_per_m = focal_px / place.seen.z;
+  const float base_px = std::clamp(width_px_ + width_m_ * px_per_m, least_px_, most_px_);
+  return std::min(place.factor, 1 + most_added_m_[place.point] * px_per_m / std::max(base_px, 1e-6f));
 }
 
 std::uint32_t LineStrips::place_at(std::uint32_t vertex, std::span<const ShapeVertex> vertices,
@@ -283,6 +293,7 @@ void LineStrips::collect(const ContourStrips& contour, std::span<const ShapeVert
     lines_.push_back(line);
   }
   for (Place& place : places_) {
+    place.factor = limited(place, static_cast<float>(camera.fx_px));
     find_push(place);
     if (lens == nullptr) continue;
     const glm::mat2 pinhole_from_plate = glm::inverse(place.plate_from_pinhole);

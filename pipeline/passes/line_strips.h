@@ -43,8 +43,12 @@ struct LineStyle {
   using Follow = std::function<void(const Moved&)>;
   Follow follow{};
   float most_factor = 0;  ///< the largest that `follow` may give
-  float taper_px = 0;     ///< where a line ends on a surface, it gets thinner over this length, or less if it soon goes
-                          ///< on; 0: not at all
+  /// The most that factors above 1 add at each welded point, in metres at its depth; empty: no limit.
+  std::vector<float> most_added_m{};
+  /// The line that it is added to, set by who draws it: width_px + width_m seen at its depth, within these.
+  float width_px = 0, width_m = 0, least_px = 0, most_px = 0;
+  float taper_px = 0;  ///< where a line ends on a surface, it gets thinner over this length, or less if it soon goes
+                       ///< on; 0: not at all
 };
 
 /// Turns a contour into lines of right width: along each edge a quad, and at corners what closes them. No GL.
@@ -104,6 +108,7 @@ class LineStrips {
     std::uint32_t from, to;         // of places_
     std::uint8_t from_end, to_end;  // which of the place's ends it is
   };
+  float limited(const Place& place, float focal_px) const;
   std::uint32_t place_at(std::uint32_t vertex, std::span<const ShapeVertex> vertices, const glm::mat4& to_pixels,
                          const CameraModel* lens);
   static std::uint8_t meet(Place& place, std::uint32_t next, const glm::vec2& way, float side, float length_px);
@@ -119,8 +124,10 @@ class LineStrips {
 
   bool mirrored_;
   std::vector<std::uint32_t> welded_;
-  std::vector<float> hard_;              // per point: 0 smooth to 1
-  std::vector<float> factors_;           // per point
+  std::vector<float> hard_;          // per point: 0 smooth to 1
+  std::vector<float> factors_;       // per point
+  std::vector<float> most_added_m_;  // per point, or empty
+  float width_px_ = 0, width_m_ = 0, least_px_ = 0, most_px_ = 0;
   std::vector<std::uint32_t> place_of_;  // per point, of this frame's; valid where places_ agrees
   float taper_px_ = 0;
   float largest_factor_ = 1;

@@ -17,6 +17,7 @@ struct DrawCall {
   float focal_px = 0;  ///< pixels that an outline normal of length 1 takes at a distance of 1 m
   float near_m = static_cast<float>(passes::near_m);  ///< of clip_from_object: depth is this, divided by Z
   bool lines_only = false;  ///< a picture of the lines is drawn: all else only covers them, by GL_ZERO for its colour
+  bool elsewhere = false;   ///< into a picture of a style's own, of another viewport than rect's
 };
 
 /// One way of drawing an object: its shading, its outline, ... An object has a list of them.

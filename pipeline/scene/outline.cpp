@@ -50,7 +50,7 @@ void read_curvature_width(const Table& outline, OutlineScene& scene) {
       throw outline.error_at(key, "goes with method = \"curvature\"", "add that, or leave it out");
     }
   }
-  for (const std::string_view key : {"exaggeration", "smoothing"}) {
+  for (const std::string_view key : {"exaggeration", "smoothing", "thickness_part"}) {
     if (outline.has(key) && scene.method != O::Method::Curvature && scene.method != O::Method::Control) {
       throw outline.error_at(key, "goes with method = \"curvature\" or \"control\"", "add that, or leave it out");
     }
@@ -74,15 +74,16 @@ void read_curvature_width(const Table& outline, OutlineScene& scene) {
   scene.curve = outline.number("curve", Limits::above(0, 10)).value_or(scene.curve);
   scene.min_factor = outline.number("min_factor", Limits::above(0, 1)).value_or(scene.min_factor);
   scene.smoothing = static_cast<int>(outline.integer("smoothing", 0, 100).value_or(scene.smoothing));
+  scene.thickness_part = outline.number("thickness_part", {0, 100}).value_or(scene.thickness_part);
 }
 
 }  // namespace
 
 toml::Schema outline_schema() {
-  toml::Section outline{
-      .path = "object.outline",
-      .keys = {"width_px", "width_m", "min_px", "max_px", "taper_px", "colour", "method", "curvature", "sign",
-               "exaggeration", "saturation", "curve", "min_factor", "smoothing", "control", "weight"}};
+  toml::Section outline{.path = "object.outline",
+                        .keys = {"width_px", "width_m", "min_px", "max_px", "taper_px", "colour", "method", "curvature",
+                                 "sign", "exaggeration", "saturation", "curve", "min_factor", "smoothing",
+                                 "thickness_part", "control", "weight"}};
   for (const std::string_view key : line_style_keys()) outline.keys.push_back(key);
   toml::Schema schema{std::move(outline)};
   for (toml::Section& section : line_style_schema()) schema.push_back(std::move(section));

@@ -37,8 +37,9 @@ struct OutlineScene {
   double curve = 1;
   double min_factor = 0.25;
   int smoothing = 3;
+  double thickness_part = 0.5;  ///< the most that is added to the width, in thicknesses of the body; 0: any width
   LineWeightScene weight;
-  ControlScene control;  ///< for the method Control, which has exaggeration and smoothing as well
+  ControlScene control;  ///< for the method Control, which has exaggeration, smoothing and thickness_part as well
 };
 
 toml::Schema outline_schema();

@@ -18,7 +18,8 @@ void fill(passes::Layer& layer, const std::array<double, 3>& colour) {
 
 }  // namespace
 
-World::World(const BackgroundScene& scene, const source::Description& plate) : input_(scene.input) {
+World::World(const BackgroundScene& scene, const source::Description& plate)
+    : input_(scene.input), plate_is_live_(plate.live) {
   const PictureFormat& format = plate.format;
   picture_.rect = {0, 0, format.width_px, format.height_px};
   picture_.rgba.resize(static_cast<std::size_t>(format.width_px) * format.height_px * 4);
@@ -34,7 +35,7 @@ World::World(const BackgroundScene& scene, const source::Description& plate) : i
                           std::max(format.height_px, static_cast<int>(std::lround(own.height_px * scale))), {1, 1});
   is_sequence_ = scene.is_sequence;
   open();
-  read_ahead();
+  read_ahead(0);
   if (!ahead_) throw input_error(input_, "it holds no picture", "give another background");
 }
 
@@ -51,33 +52,41 @@ void World::show(const Frame& frame) {
   }
 }
 
-// The frame after the one that is ahead; the first again after the last. Of a single picture there is no other.
-void World::read_ahead() {
+// The frame after the one that is ahead; the first again after the last. Of a single picture there is no other. Rounds
+// that would be over by now are left out.
+void World::read_ahead(double now) {
   const bool first = !ahead_;
-  const double ends_at = ahead_at_ + lasts_;
+  double length = ahead_at_ + lasts_ - began_at_;
   ahead_ = source_->next();
   if (ahead_) {
     moves_ = !first;
   } else if (moves_) {
     open();
     ahead_ = source_->next();
-    began_at_ = ends_at;
+    // Containers round times: rounds of an even rate are whole frames long.
+    const double even = is_sequence_ ? length : std::round(length * rate_) / rate_;
+    if (std::abs(length - even) < 0.0011) length = even;
+    began_at_ += length * std::max(1.0, std::floor((now - began_at_) / length));
   }
   if (!ahead_) return;
   const source::Description& of = source_->description();
-  const double rate = of.frame_rate.num > 0 ? of.frame_rate.value() : 25;
+  if (of.frame_rate.num > 0) rate_ = of.frame_rate.value();
   const double time_s = ahead_->time_s() - of.first_time_s();
   ahead_at_ = began_at_ + (is_sequence_ ? static_cast<double>(ahead_->number) : time_s);
-  lasts_ = is_sequence_ ? 1 : 1 / rate;
+  lasts_ = is_sequence_ ? 1 : 1 / rate_;
 }
 
 const passes::Layer& World::at(double time_s, std::int64_t frame) {
   // Containers round times, to a millisecond at worst.
   const double now = is_sequence_ ? static_cast<double>(frame) : time_s + 0.001;
-  while (ahead_ && ahead_at_ <= now) {
-    show(*ahead_);
-    read_ahead();
+  // What is slower to decode than a camera films falls behind, and doesn't hold it up.
+  constexpr int most_live = 3;
+  std::optional<Frame> shown;
+  for (int read = 0; ahead_ && ahead_at_ <= now && !(plate_is_live_ && read == most_live); ++read) {
+    shown = *ahead_;
+    read_ahead(now);
   }
+  if (shown) show(*shown);
   return picture_;
 }
 

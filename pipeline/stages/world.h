@@ -26,7 +26,7 @@ class World {
 
  private:
   void open();
-  void read_ahead();
+  void read_ahead(double now);
   void show(const Frame& frame);
 
   std::string input_;
@@ -38,7 +38,9 @@ class World {
   double ahead_at_ = 0;
   double began_at_ = 0;  // this time round
   double lasts_ = 0;     // of the frame ahead
+  double rate_ = 25;     // frames a second
   bool moves_ = false;   // it is no single picture
+  bool plate_is_live_ = false;
 };
 
 }  // namespace rinkaku::pipeline

@@ -57,14 +57,6 @@ std::vector<glm::dvec2> seen_hull(const View& v, const mesh::Mesh& mesh, const g
   return convex_hull(std::move(points));
 }
 
-// How far alpha reaches beyond a contour point, across the contour.
-double reach_px(const Layer& layer, const glm::dvec2& contour, const glm::dvec2& outwards, double width_px) {
-  constexpr double inside = 4, step = 0.1;
-  double sum = 0;
-  for (double r = -inside; r < 3 * width_px + 4; r += step) sum += alpha_at(layer, contour + outwards * r) * step;
-  return sum - inside;
-}
-
 struct Extremes {
   double least = 1e9, most = -1e9;
   int count = 0;

@@ -62,4 +62,13 @@ inline mesh::Mesh cylinder(std::uint32_t sides) {
   return mesh;
 }
 
+/// How far alpha reaches beyond a contour point, across the contour.
+inline double reach_px(const passes::Layer& layer, const glm::dvec2& contour, const glm::dvec2& outwards,
+                       double width_px) {
+  constexpr double inside = 4, step = 0.1;
+  double sum = 0;
+  for (double r = -inside; r < 3 * width_px + 4; r += step) sum += alpha_at(layer, contour + outwards * r) * step;
+  return sum - inside;
+}
+
 }  // namespace rinkaku::test

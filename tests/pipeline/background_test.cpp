@@ -110,6 +110,16 @@ TEST(Background, VideoPlaysAtItsOwnPaceAndBeginsAgain) {
   EXPECT_EQ(shown(rendered(folder, "video = \"fast.mkv\"")), (std::vector<int>{0, 2, 4, 6, 8, 1, 3, 5, 7, 0, 2, 4}));
 }
 
+// Matroska rounds times to milliseconds, and 24 don't divide a thousand: many rounds stay in step all the same.
+TEST(Background, VideoStaysInStepOverManyRounds) {
+  const ShotFolder folder;
+  write_plate(folder, 60, {24, 1});
+  write_world(folder, "world.mkv", 5, {24, 1});
+  const std::vector<int> numbers = shown(rendered(folder, "video = \"world.mkv\""));
+  ASSERT_EQ(numbers.size(), 60u);
+  for (int i = 0; i < 60; ++i) EXPECT_EQ(numbers[static_cast<std::size_t>(i)], i % 5) << i;
+}
+
 TEST(Background, VideoStandsWhereItWouldAlsoIfRenderingBeginsLater) {
   const ShotFolder folder;
   write_plate(folder, 9, {25, 1});

@@ -255,5 +255,31 @@ TEST(Layers, ShadingScaleLeavesLinesDepthAndCoverage) {
   EXPECT_LT(other, 3 * 3 * 200);
 }
 
+// Lines that are found in a picture of the object see its colours at the full resolution.
+TEST(Layers, ShadingScaleLeavesLinesFoundInPictures) {
+  const std::string scene =
+      "[track]\nlocked = { position_m = [0.9, -1.1, 0.8], look_at_m = [0, 0, 0.25] }\n"
+      "[[object]]\nmesh = \"cube.obj\"\nheight_m = 0.5\ncolour = \"#e0c020\"\n"
+      "outline = { method = \"laplacian\", width_px = 4, colour = \"#ff0000\" }\n";
+  const Written full(scene), third(scene + "shading_scale = 3\n");
+  EXPECT_EQ(test::samples(full("line")), test::samples(third("line")));
+}
+
+// Strokes remember the frame before: the picture of the lines is of the same strokes, not of the next.
+TEST(Layers, StrokesAreTheSameWithLayersAndWithout) {
+  const ShotFolder folder(width, height);
+  folder.write("camera.yml", ShotFolder::camera_text(width, height, "0, 0, 0, 0, 0"));
+  folder.noise_clip("in.mkv", format, 4);
+  const std::string scene =
+      test::plate + before + plain_cube +
+      "outline = { method = \"wobble\", width_px = 4, colour = \"#ff0000\", redraw_frames = 2 }\n";
+  folder.render(scene, {.output = "with.mkv", .codec = "ffv1", .layers_folder = folder.file("layers")});
+  folder.render(scene, {.output = "without.mkv", .codec = "ffv1"});
+  const auto with = folder.frames("with.mkv"), without = folder.frames("without.mkv");
+  ASSERT_EQ(with.size(), 4u);
+  ASSERT_EQ(without.size(), 4u);
+  for (std::size_t i = 0; i < 4; ++i) EXPECT_EQ(test::samples(with[i]), test::samples(without[i])) << "frame " << i;
+}
+
 }  // namespace
 }  // namespace rinkaku::pipeline

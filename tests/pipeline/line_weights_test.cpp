@@ -1,6 +1,7 @@
 // What lines weigh: widths by paint, by an image, by material and by light.
 #include "pipeline/objects/line_weights.h"
 
+#include <cmath>
 #include <filesystem>
 
 #include <unistd.h>
@@ -113,6 +114,27 @@ TEST(LineWeights, LinesAreThickerAwayFromTheLight) {
     for (const std::uint32_t p : {5u, 9u, 40u}) EXPECT_FLOAT_EQ(moved[p], still[p]);
     EXPECT_EQ(moved[6], -1) << "nobody asked for it";
   }
+}
+
+// A ball of radius 1, 3 m across in the scene: half of its thickness, as rays at 20 degrees see it; at rest or moving.
+TEST(LineWeights, WhatCurvatureAddsIsAPartOfTheThickness) {
+  const mesh::Mesh ball = sphere(4);
+  pipeline::OutlineScene line;
+  line.method = pipeline::LineMethod::Curvature;
+  pipeline::LineSurroundings around;
+  around.world_from_object = glm::scale(glm::dmat4(1), glm::dvec3(1.5));
+  std::vector<float> factors;
+  for (const bool moves : {false, true}) {
+    around.moves = moves;
+    const passes::LineStyle style = line_style(ball, line, around, factors);
+    ASSERT_EQ(style.most_added_m.size(), ball.point_count);
+    // Normals lean by half a triangle, some 3 degrees: 2 % of a ray.
+    for (const float added : style.most_added_m) EXPECT_NEAR(added, 1.5 * std::cos(0.349), 0.05);
+  }
+  line.thickness_part = 0;
+  EXPECT_TRUE(line_style(ball, line, around, factors).most_added_m.empty());
+  line.method = pipeline::LineMethod::Uniform, line.thickness_part = 1;
+  EXPECT_TRUE(line_style(ball, line, around, factors).most_added_m.empty());
 }
 
 }  // namespace

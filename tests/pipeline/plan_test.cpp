@@ -185,7 +185,7 @@ TEST(Plan, ColoursAreDrawnAtALowerResolutionWhereThatIsAskedForAndThereAreSevera
   scene.objects[0].shading_scale = 2;
   EXPECT_TRUE(plan_of(scene).runs("shading-scale"));
   EXPECT_EQ(stage(plan_of(scene), "shading-scale").why,
-            "cow is coloured at a lower resolution; edges, lines and fluff are not. Saves work only where colouring a "
+            "cow: coloured at a lower resolution; edges, lines and fluff are not. Saves work only where colouring a "
             "pixel costs more than ten lookups");
   ObjectScene flat;
   flat.name = "sign";
@@ -194,7 +194,7 @@ TEST(Plan, ColoursAreDrawnAtALowerResolutionWhereThatIsAskedForAndThereAreSevera
   flat.colour = {1, 0, 0};
   scene.objects = {flat};
   EXPECT_FALSE(plan_of(scene).runs("shading-scale"));
-  EXPECT_EQ(stage(plan_of(scene), "shading-scale").why, "nothing is gained for sign, which has one colour");
+  EXPECT_EQ(stage(plan_of(scene), "shading-scale").why, "nothing is gained for sign, of one colour");
   EXPECT_TRUE(plan_of(scene).runs("flat")) << "drawn all the same";
 }
 

@@ -166,6 +166,12 @@ INSTANTIATE_TEST_SUITE_P(
                  "DIR/scene.toml:8:28: 'exaggeration' in outline of [[object]] goes with method = \"curvature\" or "
                  "\"control\"; add "
                  "that, or leave it out"},
+        BadScene{"ThicknessOfUniform", object + "outline = { thickness_part = 1 }\n",
+                 "DIR/scene.toml:8:30: 'thickness_part' in outline of [[object]] goes with method = \"curvature\" or "
+                 "\"control\"; add that, or leave it out"},
+        BadScene{"NegativeThickness", object + "outline = { method = \"curvature\", thickness_part = -0.5 }\n",
+                 "DIR/scene.toml:8:52: 'thickness_part' in outline of [[object]] must be a number from 0 to 100, found "
+                 "-0.5"},
         BadScene{"WeightOfAPicture", object + "outline = { method = \"silhouette\", weight = { shade = 1 } }\n",
                  "DIR/scene.toml:8:45: 'weight' in outline of [[object]] goes with method = \"uniform\", "
                  "\"curvature\", \"control\", \"z_lines\" or \"hidden_lines\"; choose one of these, or leave it out"},

@@ -35,6 +35,7 @@ const std::vector<Tunable>& object_tunables() {
       {"outline", "curve", "curve", Kind::Number, 0.1, 4, 1, false, {}, "method", "curvature"},
       {"outline", "min_factor", "thinnest", Kind::Number, 0.05, 1, 0.25, false, {}, "method", "curvature"},
       {"outline", "smoothing", "smoothing", Kind::Whole, 0, 100, 3, false, {}, "method", "curvature"},
+      {"outline", "thickness_part", "part of thickness", Kind::Number, 0, 5, 0.5, false, {}, "method", "curvature"},
       {"outline",
        "sign",
        "sign",

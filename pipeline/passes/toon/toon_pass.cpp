@@ -152,7 +152,9 @@ void ToonPass::draw(const DrawCall& call, std::span<const Run> runs, Stage stage
   for (const Run& run : runs) {
     const PartStyle& style = parts_[run.part];
     if (!belongs(style, stage)) continue;
-    const Variant& v = variants_[variant_of(style, stage, run.even)];
+    // Colours of a lower resolution are looked up by the layer's own pixels.
+    const Stage as = call.elsewhere && style.coarse && stage == Stage::Surface ? Stage::CoarseSurface : stage;
+    const Variant& v = variants_[variant_of(style, as, run.even)];
     if (&v != bound) {
       glUseProgram(v.program.name());
       v.offset.set(call);
@@ -187,7 +189,7 @@ void ToonPass::draw_coarse(const DrawCall& full) {
 }
 
 void ToonPass::draw_surface(const DrawCall& call) {
-  if (coarse_) draw_coarse(call);
+  if (coarse_ && !call.elsewhere) draw_coarse(call);
   draw(call, object_.bind_front(), Stage::Surface);
 }
 
