@@ -14,6 +14,7 @@
 
 #include "mesh/import_message.h"
 #include "mesh/import_worker/read_file.h"
+#include "pipeline/frame/srgb.h"
 
 namespace rinkaku::mesh {
 namespace {
@@ -124,8 +125,7 @@ float finite_or(float value, float otherwise) { return std::isfinite(value) ? va
 }  // namespace
 
 float srgb_from_linear(float linear) {
-  const float x = std::clamp(finite_or(linear, 0.0f), 0.0f, 1.0f);
-  return x <= 0.0031308f ? 12.92f * x : 1.055f * std::pow(x, 1.0f / 2.4f) - 0.055f;
+  return rinkaku::srgb_from_linear(std::clamp(finite_or(linear, 0.0f), 0.0f, 1.0f));
 }
 
 unsigned uv_channel(const aiMaterial& material) {

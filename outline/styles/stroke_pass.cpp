@@ -13,6 +13,7 @@
 #include "embedded/stroke.frag.h"
 #include "embedded/stroke.vert.h"
 #include "mesh/bounds.h"
+#include "pipeline/gl/vertex_attribute.h"
 
 namespace rinkaku::outline {
 namespace {
@@ -20,19 +21,10 @@ namespace {
 gl::VertexArrayHandle make_array() {
   gl::VertexArrayHandle array = gl::make_vertex_array();
   const GLuint name = array.name();
-  const struct {
-    GLint size;
-    std::size_t offset;
-  } attributes[] = {{3, offsetof(StrokeVertex, position)},
-                    {2, offsetof(StrokeVertex, push_px)},
-                    {2, offsetof(StrokeVertex, along_px)},
-                    {3, offsetof(StrokeVertex, half_px)}};
-  for (GLuint i = 0; i < std::size(attributes); ++i) {
-    glEnableVertexArrayAttrib(name, i);
-    glVertexArrayAttribFormat(name, i, attributes[i].size, GL_FLOAT, GL_FALSE,
-                              static_cast<GLuint>(attributes[i].offset));
-    glVertexArrayAttribBinding(name, i, 0);
-  }
+  gl::set_attribute(name, 0, {3, GL_FLOAT, GL_FALSE, offsetof(StrokeVertex, position)});
+  gl::set_attribute(name, 1, {2, GL_FLOAT, GL_FALSE, offsetof(StrokeVertex, push_px)});
+  gl::set_attribute(name, 2, {2, GL_FLOAT, GL_FALSE, offsetof(StrokeVertex, along_px)});
+  gl::set_attribute(name, 3, {3, GL_FLOAT, GL_FALSE, offsetof(StrokeVertex, half_px)});
   return array;
 }
 

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "pipeline/frame/srgb.h"
 #include "pipeline/track/camera_file.h"
 
 namespace rinkaku::pipeline {
@@ -18,17 +19,10 @@ bool has_line(const mesh::Material& material) {
   return material.line && material.line->unit != Unit::None && material.line->width > 0;
 }
 
-float linear(float encoded) {
-  return encoded <= 0.04045f ? encoded / 12.92f : std::pow((encoded + 0.055f) / 1.055f, 2.4f);
-}
-float encoded(float linear) {
-  return linear <= 0.0031308f ? 12.92f * linear : 1.055f * std::pow(linear, 1 / 2.4f) - 0.055f;
-}
-
 // The surface's own colour, linear: the mean of its texture, where that isn't transparent.
 glm::vec3 surface_colour(const mesh::Mesh& mesh, const mesh::Material& material) {
   glm::vec3 colour(1);
-  for (int k = 0; k < 3; ++k) colour[k] = linear(material.base_colour[k]);
+  for (int k = 0; k < 3; ++k) colour[k] = linear_from_srgb(material.base_colour[k]);
   if (material.texture < 0) return colour;
   const std::vector<std::uint8_t>& rgba = mesh.textures[static_cast<std::size_t>(material.texture)].rgba;
   glm::vec3 sum(0);
@@ -37,7 +31,7 @@ glm::vec3 surface_colour(const mesh::Mesh& mesh, const mesh::Material& material)
   for (std::size_t i = 0; i + 3 < rgba.size(); i += step) {
     const float alpha = static_cast<float>(rgba[i + 3]) / 255;
     for (int k = 0; k < 3; ++k)
-      sum[k] += alpha * linear(static_cast<float>(rgba[i + static_cast<std::size_t>(k)]) / 255);
+      sum[k] += alpha * linear_from_srgb(static_cast<float>(rgba[i + static_cast<std::size_t>(k)]) / 255);
     covered += alpha;
   }
   return covered > 0 ? colour * sum / covered : colour;
@@ -49,7 +43,8 @@ glm::vec3 ink_of(const mesh::Mesh& mesh, const mesh::Material& material) {
   if (!(line.lit > 0)) return line.colour;
   const glm::vec3 surface = surface_colour(mesh, material);
   glm::vec3 ink;
-  for (int k = 0; k < 3; ++k) ink[k] = encoded(linear(line.colour[k]) * (1 - line.lit + line.lit * surface[k]));
+  for (int k = 0; k < 3; ++k)
+    ink[k] = srgb_from_linear(linear_from_srgb(line.colour[k]) * (1 - line.lit + line.lit * surface[k]));
   return ink;
 }
 

@@ -4,16 +4,10 @@
 #include <cstdint>
 #include <utility>
 
+#include "pipeline/gl/vertex_attribute.h"
+
 namespace rinkaku::passes {
-namespace {
-
-void attribute(GLuint array, GLuint location, GLint size, GLenum type, GLboolean normalised, std::size_t offset) {
-  glEnableVertexArrayAttrib(array, location);
-  glVertexArrayAttribFormat(array, location, size, type, normalised, static_cast<GLuint>(offset));
-  glVertexArrayAttribBinding(array, location, 0);
-}
-
-}  // namespace
+namespace {}  // namespace
 
 DrawnObject::DrawnObject(ObjectShape shape)
     : shape_(std::move(shape)), mesh_array_(make_vertex_array()), contour_array_(make_vertex_array()) {
@@ -30,17 +24,17 @@ DrawnObject::DrawnObject(ObjectShape shape)
 gl::VertexArrayHandle DrawnObject::make_vertex_array() {
   gl::VertexArrayHandle array = gl::make_vertex_array();
   const GLuint name = array.name();
-  attribute(name, 0, 3, GL_FLOAT, GL_FALSE, offsetof(ShapeVertex, position));
-  attribute(name, 1, 3, GL_SHORT, GL_TRUE, offsetof(ShapeVertex, normal));
-  attribute(name, 2, 4, GL_SHORT, GL_TRUE, offsetof(ShapeVertex, outline_normal));
-  attribute(name, 3, 2, GL_FLOAT, GL_FALSE, offsetof(ShapeVertex, uv));
-  attribute(name, 4, 4, GL_UNSIGNED_BYTE, GL_TRUE, offsetof(ShapeVertex, colour));
+  gl::set_attribute(name, 0, {3, GL_FLOAT, GL_FALSE, offsetof(ShapeVertex, position)});
+  gl::set_attribute(name, 1, {3, GL_SHORT, GL_TRUE, offsetof(ShapeVertex, normal)});
+  gl::set_attribute(name, 2, {4, GL_SHORT, GL_TRUE, offsetof(ShapeVertex, outline_normal)});
+  gl::set_attribute(name, 3, {2, GL_FLOAT, GL_FALSE, offsetof(ShapeVertex, uv)});
+  gl::set_attribute(name, 4, {4, GL_UNSIGNED_BYTE, GL_TRUE, offsetof(ShapeVertex, colour)});
   return array;
 }
 
 gl::VertexArrayHandle DrawnObject::make_border_array() {
   gl::VertexArrayHandle array = make_vertex_array();
-  attribute(array.name(), 5, 4, GL_SHORT, GL_TRUE, offsetof(BorderVertex, across));
+  gl::set_attribute(array.name(), 5, {4, GL_SHORT, GL_TRUE, offsetof(BorderVertex, across)});
   return array;
 }
 
@@ -110,8 +104,8 @@ void DrawnObject::ask_for_lines(const LineStyle& style) {
   shape_.ask_for_lines(style);
   line_array_ = gl::make_vertex_array();
   const GLuint name = line_array_.name();
-  attribute(name, 0, 3, GL_FLOAT, GL_FALSE, offsetof(LineVertex, position));
-  attribute(name, 1, 4, GL_SHORT, GL_TRUE, offsetof(LineVertex, line));
+  gl::set_attribute(name, 0, {3, GL_FLOAT, GL_FALSE, offsetof(LineVertex, position)});
+  gl::set_attribute(name, 1, {4, GL_SHORT, GL_TRUE, offsetof(LineVertex, line)});
 }
 
 GLsizei DrawnObject::bind_lines() {

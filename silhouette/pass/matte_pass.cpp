@@ -10,6 +10,7 @@
 #include "embedded/matte.frag.h"
 #include "embedded/matte.vert.h"
 #include "mesh/bounds.h"
+#include "pipeline/gl/vertex_attribute.h"
 
 namespace rinkaku::silhouette {
 namespace {
@@ -25,9 +26,7 @@ gl::VertexArrayHandle vertex_array(GLuint vertices) {
   gl::VertexArrayHandle array = gl::make_vertex_array();
   const GLuint name = array.name();
   glVertexArrayVertexBuffer(name, 0, vertices, 0, sizeof(glm::vec3));
-  glEnableVertexArrayAttrib(name, 0);
-  glVertexArrayAttribFormat(name, 0, 3, GL_FLOAT, GL_FALSE, 0);
-  glVertexArrayAttribBinding(name, 0, 0);
+  gl::set_attribute(name, 0, {3, GL_FLOAT, GL_FALSE, 0});
   return array;
 }
 

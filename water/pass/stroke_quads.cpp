@@ -9,15 +9,10 @@
 #include "embedded/stroke.frag.h"
 #include "embedded/stroke.vert.h"
 #include "pipeline/frame/error.h"
+#include "pipeline/gl/vertex_attribute.h"
 
 namespace rinkaku::water {
 namespace {
-
-void attribute(GLuint array, GLuint location, GLint size, GLenum type, GLboolean normalised, std::size_t offset) {
-  glEnableVertexArrayAttrib(array, location);
-  glVertexArrayAttribFormat(array, location, size, type, normalised, static_cast<GLuint>(offset));
-  glVertexArrayAttribBinding(array, location, 0);
-}
 
 gl::Program stroke_program(int own_brushes) {
   static constexpr std::string_view counts[] = {"OWN_BRUSHES 1", "OWN_BRUSHES 2", "OWN_BRUSHES 3", "OWN_BRUSHES 4"};
@@ -49,12 +44,12 @@ StrokeQuads::StrokeQuads(int own_brushes) : program_(stroke_program(own_brushes)
   size_px_ = program_.uniform("size_px");
   near_m_ = program_.uniform("near_m");
   const GLuint array = array_.name();
-  attribute(array, 0, 3, GL_FLOAT, GL_FALSE, offsetof(Corner, place));
-  attribute(array, 1, 2, GL_FLOAT, GL_FALSE, offsetof(Corner, brush));
-  attribute(array, 2, 4, GL_UNSIGNED_BYTE, GL_TRUE, offsetof(Corner, colour));
+  gl::set_attribute(array, 0, {3, GL_FLOAT, GL_FALSE, offsetof(Corner, place)});
+  gl::set_attribute(array, 1, {2, GL_FLOAT, GL_FALSE, offsetof(Corner, brush)});
+  gl::set_attribute(array, 2, {4, GL_UNSIGNED_BYTE, GL_TRUE, offsetof(Corner, colour)});
   if (own_brushes == 0) return;
-  attribute(array, 3, 4, GL_UNSIGNED_BYTE, GL_TRUE, offsetof(Corner, blend));
-  attribute(array, 4, 1, GL_FLOAT, GL_FALSE, offsetof(Corner, next_brush));
+  gl::set_attribute(array, 3, {4, GL_UNSIGNED_BYTE, GL_TRUE, offsetof(Corner, blend)});
+  gl::set_attribute(array, 4, {1, GL_FLOAT, GL_FALSE, offsetof(Corner, next_brush)});
 }
 
 void StrokeQuads::add_corners(const Stroke& stroke, const BrushAtlas& atlas) {

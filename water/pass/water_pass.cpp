@@ -9,15 +9,10 @@
 
 #include "embedded/surface.frag.h"
 #include "embedded/surface.vert.h"
+#include "pipeline/gl/vertex_attribute.h"
 
 namespace rinkaku::water {
 namespace {
-
-void attribute(GLuint array, GLuint location, std::size_t offset) {
-  glEnableVertexArrayAttrib(array, location);
-  glVertexArrayAttribFormat(array, location, 2, GL_FLOAT, GL_FALSE, static_cast<GLuint>(offset));
-  glVertexArrayAttribBinding(array, location, 0);
-}
 
 gl::Program surface_program() {
   const std::string_view vertex[] = {embedded::surface_vert}, fragment[] = {embedded::surface_frag};
@@ -71,8 +66,8 @@ WaterPass::WaterPass(const BrushSheet& lines, const BrushSheet& drops, const Bru
     own_.emplace(own);
     own_quads_.emplace(std::min(own.layers, 4));
   }
-  attribute(surface_array_.name(), 0, offsetof(Corner, at));
-  attribute(surface_array_.name(), 1, offsetof(Corner, outwards));
+  gl::set_attribute(surface_array_.name(), 0, {2, GL_FLOAT, GL_FALSE, offsetof(Corner, at)});
+  gl::set_attribute(surface_array_.name(), 1, {2, GL_FLOAT, GL_FALSE, offsetof(Corner, outwards)});
   clip_from_surface_ = surface_program_.uniform("clip_from_surface");
   ground_opacity_ = surface_program_.uniform("ground_opacity");
   ground_place_ = surface_program_.uniform("ground_place");
