@@ -1,10 +1,10 @@
 // Whatever bytes a VRM holds, what its materials say about outlines is read or passed over.
+#include "mesh/import_worker/mtoon.h"
+
 #include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>
-
-#include "mesh/import_worker/mtoon.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const rinkaku::mesh::MtoonLines lines(std::span(reinterpret_cast<const char*>(data), size));
