@@ -122,6 +122,11 @@ void LayerRenderer::read_depth(const Slice& slice, const PixelRect& rect, DepthL
   for (float& value : depth.depth_m) value = value > cleared ? near / value : 0;
 }
 
+// What passes through a cut is drawn from a little before it, so that the nearer slice's part hides the seam: along an
+// edge that both leave, pixels that a lens covers in part would let shine through what lies behind. It is 1.5 pixels of
+// a floor seen as little as a thirteenth of the focal length under the horizon.
+double before_cut_m(double cut_m, const CameraModel& camera) { return cut_m * (1 - std::min(20 / camera.fx_px, 0.1)); }
+
 bool LayerRenderer::draw(const View& view, std::span<const double> cuts_m, std::span<Layer> layers,
                          std::span<LayerParts> parts) {
   assert(layers.size() == cuts_m.size() + 1);
@@ -131,7 +136,8 @@ bool LayerRenderer::draw(const View& view, std::span<const double> cuts_m, std::
   look_at_objects(view, picture_);
   bool drawn = false;
   for (std::size_t i = 0; i < layers.size(); ++i) {
-    const Slice slice{i == 0 ? near_m : std::max(near_m, cuts_m[i - 1]),
+    const double cut_m = i == 0 ? near_m : std::max(near_m, cuts_m[i - 1]);
+    const Slice slice{cut_m, i == 0 ? near_m : std::max(near_m, before_cut_m(cut_m, view.camera)),
                       i < cuts_m.size() ? cuts_m[i] : std::numeric_limits<double>::infinity()};
     drawn = draw_slice(view, slice, scene_rect, layers[i], parts.empty() ? nullptr : &parts[i]) || drawn;
   }
@@ -163,7 +169,7 @@ void LayerRenderer::draw_all(const View& view, const Slice& slice, Ink ink, Laye
 }
 
 bool LayerRenderer::draw_objects(const View& view, const PixelRect& picture, Layer& layer) {
-  constexpr Slice all{near_m, std::numeric_limits<double>::infinity()};
+  constexpr Slice all{near_m, near_m, std::numeric_limits<double>::infinity()};
   look_at_objects(view, picture);
   layer.rect = covered(all);
   if (layer.rect.empty()) return false;

@@ -56,11 +56,12 @@ class LayerRenderer {
     bool uploaded;
   };
   struct Slice {
-    double near_m;
+    double cut_m;   // where it begins
+    double near_m;  // from where on what reaches beyond that is drawn
     double far_m;
     // What only takes away also does so in all slices behind it.
     bool holds(const Visible& v) const {
-      return v.look->nearest_m < far_m && (!v.leaves_colour || v.look->farthest_m > near_m);
+      return v.look->nearest_m < far_m && (!v.leaves_colour || v.look->farthest_m > cut_m);
     }
   };
   void look_at_objects(const View& view, const PixelRect& picture);
