@@ -47,6 +47,7 @@ StrokePass::StrokePass(passes::DrawnObject& object, const mesh::Mesh& mesh, cons
       array_(make_array()) {
   options_.brush = nullptr;
   using Lines = StrokeOptions::Lines;
+  if (options.lines != Lines::Contour || options.isophote > 0) object.ask_for_vertices();
   for (const DrawnLine& line : options_.drawn) {
     for (const SurfacePlace& place : line) drawn_triangles_.push_back(mesh.triangles[place.triangle]);
   }

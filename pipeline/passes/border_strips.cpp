@@ -69,6 +69,10 @@ BorderStrips::BorderStrips(const mesh::Mesh& mesh, const mesh::Topology& topolog
   runs_.reserve(mesh.parts.size());
 }
 
+void BorderStrips::append_used(std::vector<std::uint32_t>& vertices) const {
+  for (const Quad& quad : quads_) vertices.insert(vertices.end(), {quad.a, quad.b, quad.beyond});
+}
+
 void BorderStrips::move(std::span<const ShapeVertex> vertices) {
   auto out = vertices_.begin();
   for (const Quad& quad : quads_) {

@@ -27,6 +27,8 @@ class BorderStrips {
   /// Lists the quads whose two triangles both face the eye. Allocates nothing once warm.
   void collect(const mesh::Contour& contour);
 
+  /// Adds the vertices of the mesh that move() looks at.
+  void append_used(std::vector<std::uint32_t>& vertices) const;
   /// The mesh has moved: `vertices` are its new ones. About 50 ns a border's edge.
   void move(std::span<const ShapeVertex> vertices);
 

@@ -21,7 +21,12 @@ class ContourStrips {
   /// topology.
   ContourStrips(const mesh::Mesh& mesh, const mesh::Topology& topology, bool two_sided, bool moving = false);
 
-  /// `vertices` are the mesh's. Allocates nothing once warm.
+  /// The vertices of the mesh that collect() will look at: at the contour's edges; and, of a moving mesh, the positions
+  /// of those that lie opposite.
+  template <typename Whole, typename Position>
+  void for_each_used(const mesh::Contour& contour, const Whole& whole, const Position& position) const;
+
+  /// `vertices` are the mesh's; only those need be right that for_each_used() names. Allocates nothing once warm.
   void collect(const mesh::Contour& contour, std::span<const ShapeVertex> vertices);
 
   std::span<const ShapeVertex> vertices() const { return strip_vertices_; }
@@ -56,5 +61,16 @@ class ContourStrips {
   std::vector<std::uint32_t> indices_;
   std::vector<Run> runs_;
 };
+
+template <typename Whole, typename Position>
+void ContourStrips::for_each_used(const mesh::Contour& contour, const Whole& whole, const Position& position) const {
+  for (const std::uint32_t edge : contour.edges) {
+    const EdgeVertices& e = edges_[edge];
+    for (const std::uint32_t v : {e.a0, e.b0, e.a1, e.b1}) whole(v);
+    if (e.opposite0 == mesh::kNone) continue;
+    position(e.opposite0);
+    position(e.opposite1);
+  }
+}
 
 }  // namespace rinkaku::passes
