@@ -252,9 +252,10 @@ void measure(int around, int along, int frames) {
   }
   std::printf("%9u", rigged.mesh.point_count);
   for (const double ms : median) std::printf(" %13.2f", ms);
-  std::printf(" %12.3f %12.3f %15.3f %13.3f %14.3f %13.3f", median[Uniform] / median[Once], median[Once] / median[EveryFrame],
-              median[Carried] / median[Skinned], median[EveryFrame] / median[Skinned],
-              median[EveryFrame] / median[Straight], median[EveryFrame] / median[SkinnedGpu]);
+  std::printf(" %12.3f %12.3f %15.3f %13.3f %14.3f %13.3f", median[Uniform] / median[Once],
+              median[Once] / median[EveryFrame], median[Carried] / median[Skinned],
+              median[EveryFrame] / median[Skinned], median[EveryFrame] / median[Straight],
+              median[EveryFrame] / median[SkinnedGpu]);
   measure_stages(rigged, frames);
 }
 

@@ -56,7 +56,8 @@ void classify_moved(std::span<const glm::uvec3> faces, std::span<const glm::vec3
     std::memcpy(&front[f], &is_front, count);
     std::memcpy(&seen_front[f], &shown, count);
     for (std::size_t k = 0; k < count; ++k) {
-      if (clear[k] == 0) [[unlikely]] flat.push_back(static_cast<std::uint32_t>(f + k));
+      if (clear[k] == 0) [[unlikely]]
+        flat.push_back(static_cast<std::uint32_t>(f + k));
     }
   }
 }

@@ -111,7 +111,8 @@ inline Four Skin::turned(const Turn& turn, const glm::vec3& n, std::size_t point
   constexpr float least_squared = 1e-30f, most_squared = 1e30f;
   const Four along = turn.x * n.x + turn.y * n.y + turn.z * n.z;
   const float squared = sum_of_three(along * along);
-  if (squared > least_squared && squared < most_squared) [[likely]] return along * (1.0f / std::sqrt(squared));
+  if (squared > least_squared && squared < most_squared) [[likely]]
+    return along * (1.0f / std::sqrt(squared));
   return turned_at_rest_or_so(along, n, point);
 }
 

@@ -90,7 +90,8 @@ Verdict animate(const Facts& f) {
     return names.empty() ? "" : "; " + names + ": vertices are made " + where;
   };
   return {true, objects(n) + " played in time with the video, contours found on the CPU" +
-                    made("on the GPU, or on the CPU where OpenGL itself runs there and would be slower", posed<Skinning::Auto>) +
+                    made("on the GPU, or on the CPU where OpenGL itself runs there and would be slower",
+                         posed<Skinning::Auto>) +
                     made("by a compute shader, as the scene says", posed<Skinning::Gpu>) +
                     made("on the CPU, as the scene says", posed<Skinning::Cpu>)};
 }

@@ -37,7 +37,8 @@ inline void write_snorm(const mesh::Four& first, const mesh::Four& second, Moved
   const Ints a = __builtin_convertvector(first * 32767.0f + 32768.5f, Ints) - 32768;
   const Ints b = __builtin_convertvector(second * 32767.0f + 32768.5f, Ints) - 32768;
   // The lower halves of all eight.
-  const auto codes = __builtin_shufflevector(std::bit_cast<Shorts>(a), std::bit_cast<Shorts>(b), 0, 2, 4, 6, 8, 10, 12, 14);
+  const auto codes =
+      __builtin_shufflevector(std::bit_cast<Shorts>(a), std::bit_cast<Shorts>(b), 0, 2, 4, 6, 8, 10, 12, 14);
   std::memcpy(to.normal.data(), &codes, sizeof(codes));
 }
 

@@ -66,8 +66,9 @@ void MovedVertices::dispatch(const MovingShape& shape) {
     gpu_->normals.write(std::as_bytes(skin.bind_normals()));
     gpu_->outline_normals.write(std::as_bytes(skin.bind_outline_normals()));
   }
-  const GLuint buffers[] = {gpu_->joints.name(), gpu_->first.name(),   gpu_->influences.name(),      gpu_->welded.name(),
-                            gpu_->points.name(), gpu_->normals.name(), gpu_->outline_normals.name(), gpu_->moved.name()};
+  const GLuint buffers[] = {gpu_->joints.name(),          gpu_->first.name(),  gpu_->influences.name(),
+                            gpu_->welded.name(),          gpu_->points.name(), gpu_->normals.name(),
+                            gpu_->outline_normals.name(), gpu_->moved.name()};
   glBindBuffersBase(GL_SHADER_STORAGE_BUFFER, 0, static_cast<GLsizei>(std::size(buffers)), buffers);
   // What was drawn before still reads what is written now.
   glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);

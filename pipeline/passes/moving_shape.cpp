@@ -44,7 +44,8 @@ void MovingShape::settle(std::uint32_t point, std::span<ShapeVertex> vertices) {
   settled_[point] = moves_made_;
   moving_.skin().pose_normals(point);
   const mesh::Skin& skin = moving_.skin();
-  const std::array<std::int16_t, 4> outline_normal = snorm(mesh::three(push_(mesh::four(skin.outline_normals()[point]))));
+  const std::array<std::int16_t, 4> outline_normal =
+      snorm(mesh::three(push_(mesh::four(skin.outline_normals()[point]))));
   for (const std::uint32_t v : skin.vertices_of(point)) {
     vertices[v].position = skin.points()[point];
     vertices[v].normal = snorm(skin.normals()[v]);

@@ -39,7 +39,8 @@ class MovingShape {
   void place(std::uint32_t vertex, std::span<ShapeVertex> vertices) const {
     vertices[vertex].position = points()[welded_[vertex]];
   }
-  /// Brings everything at a point to where it is now: its vertices, and its normals in skin(). About 50 ns, once a move.
+  /// Brings everything at a point to where it is now: its vertices, and its normals in skin(). About 50 ns, once a
+  /// move.
   void settle(std::uint32_t point, std::span<ShapeVertex> vertices);
 
   /// All vertices as they are now. Cost: docs/animation.md.

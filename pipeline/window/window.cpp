@@ -9,6 +9,7 @@
 #include <GLFW/glfw3.h>
 
 #include "pipeline/frame/error.h"
+#include "pipeline/gl/context.h"
 
 namespace rinkaku::window {
 namespace {

@@ -69,7 +69,8 @@ TEST(Plan, OnlyAnimatedObjectsArePosed) {
   scene.objects.back().animation.emplace();
   EXPECT_TRUE(plan_of(scene).runs("animate"));
   scene.objects.back().name = "fox";
-  const std::string played = "1 object played in time with the video, contours found on the CPU; fox: vertices are made ";
+  const std::string played =
+      "1 object played in time with the video, contours found on the CPU; fox: vertices are made ";
   EXPECT_EQ(stage(plan_of(scene), "animate").why,
             played + "on the GPU, or on the CPU where OpenGL itself runs there and would be slower");
   scene.objects.back().animation->skinning = Skinning::Gpu;
