@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <cstring>
@@ -20,10 +21,21 @@ Vectors operator-(const Vectors& a, const Vectors& b) { return {a.x - b.x, a.y -
 Four dot(const Vectors& a, const Vectors& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 Four larger(const Four& a, const Four& b) { return a > b ? a : b; }
 
+// The x and y of two points, in a row.
+Four pairs(const glm::vec3& a, const glm::vec3& b) {
+  using Eights = double __attribute__((vector_size(16)));
+  std::array<double, 2> halves;
+  std::memcpy(&halves[0], &a.x, 8);
+  std::memcpy(&halves[1], &b.x, 8);
+  return std::bit_cast<Four>(Eights{halves[0], halves[1]});
+}
+
 Vectors corners(const std::array<const glm::uvec3*, 4>& faces, int corner, std::span<const glm::vec3> points) {
   const glm::vec3 &a = points[(*faces[0])[corner]], &b = points[(*faces[1])[corner]];
   const glm::vec3 &c = points[(*faces[2])[corner]], &d = points[(*faces[3])[corner]];
-  return {Four{a.x, b.x, c.x, d.x}, Four{a.y, b.y, c.y, d.y}, Four{a.z, b.z, c.z, d.z}};
+  const Four ab = pairs(a, b), cd = pairs(c, d);
+  return {__builtin_shufflevector(ab, cd, 0, 2, 4, 6), __builtin_shufflevector(ab, cd, 1, 3, 5, 7),
+          Four{a.z, b.z, c.z, d.z}};
 }
 
 Four roots(const Four& f) { return Four{std::sqrt(f[0]), std::sqrt(f[1]), std::sqrt(f[2]), std::sqrt(f[3])}; }

@@ -134,7 +134,9 @@ void Skin::add_morphs(const Pose& pose) {
 
 void Skin::pose(const Pose& pose) {
   pose_points(pose);
-  for (std::uint32_t p = 0; p < points_.size(); ++p) pose_normals(p);
+  for (std::uint32_t p = 0; p < points_.size(); ++p) {
+    pose_normals(p, [&](std::uint32_t v, const Four& normal, const Four&) { normals_[v] = three(normal); });
+  }
 }
 
 void Skin::pose_points(const Pose& pose) {
@@ -157,12 +159,6 @@ void Skin::pose_points(const Pose& pose) {
     points_[p] = three(at);
   }
   box_ = points_.empty() ? Box{} : Box{three(low), three(high)};
-}
-
-void Skin::pose_normals(std::uint32_t point) {
-  const Turn turn(blended(point));
-  outline_normals_[point] = three(turned(turn, morphed_outline_normals_[point], point));
-  for (const std::uint32_t v : vertices_of(point)) normals_[v] = three(turned(turn, morphed_normals_[v], point));
 }
 
 Four Skin::turned_at_rest_or_so(const Four& along, const glm::vec3& n, std::size_t point) const {

@@ -35,17 +35,15 @@ class Skin {
   void pose(const Pose& pose);
   /// The points alone; normals stay as they were. They cost as much again, so whoever needs few takes these.
   void pose_points(const Pose& pose);
-  /// The last pose's normals of a point: its outline normal and its vertices' normals.
-  void pose_normals(std::uint32_t point);
+  /// The last pose's normals of a point. Sets its outline normal, and calls each(vertex, normal, outline normal) for
+  /// its vertices, the latter two as Four.
+  template <typename Each>
+  void pose_normals(std::uint32_t point, const Each& each);
 
   std::span<const glm::vec3> points() const { return points_; }                    ///< per point
   std::span<const glm::vec3> normals() const { return normals_; }                  ///< per vertex, unit
   std::span<const glm::vec3> outline_normals() const { return outline_normals_; }  ///< per point, unit
   const Box& box() const { return box_; }                                          ///< of the points
-  /// The vertices of a point.
-  std::span<const std::uint32_t> vertices_of(std::uint32_t point) const {
-    return std::span(vertices_).subspan(first_vertex_[point], first_vertex_[point + 1] - first_vertex_[point]);
-  }
 
   /// Hands out the last pose, normals included: calls each(vertex, point's position, normal, outline normal) for all
   /// vertices, point by point, the last two as Four. Keeps nothing.
@@ -114,6 +112,17 @@ inline Four Skin::turned(const Turn& turn, const glm::vec3& n, std::size_t point
   if (squared > least_squared && squared < most_squared) [[likely]]
     return along * (1.0f / std::sqrt(squared));
   return turned_at_rest_or_so(along, n, point);
+}
+
+template <typename Each>
+void Skin::pose_normals(std::uint32_t point, const Each& each) {
+  const Turn turn(blended(point));
+  const Four outline_normal = turned(turn, morphed_outline_normals_[point], point);
+  outline_normals_[point] = three(outline_normal);
+  for (std::uint32_t i = first_vertex_[point]; i < first_vertex_[point + 1]; ++i) {
+    const std::uint32_t v = vertices_[i];
+    each(v, turned(turn, morphed_normals_[v], point), outline_normal);
+  }
 }
 
 template <typename Each>

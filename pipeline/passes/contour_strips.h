@@ -21,10 +21,10 @@ class ContourStrips {
   /// topology.
   ContourStrips(const mesh::Mesh& mesh, const mesh::Topology& topology, bool two_sided, bool moving = false);
 
-  /// The vertices of the mesh that collect() will look at: at the contour's edges; and, of a moving mesh, the positions
-  /// of those that lie opposite.
-  template <typename Whole, typename Position>
-  void for_each_used(const mesh::Contour& contour, const Whole& whole, const Position& position) const;
+  /// What collect() will look at: calls end(vertex) for one vertex at each end of the contour's edges, standing for all
+  /// that are at its point; and, of a moving mesh, position(vertex) for those that lie opposite.
+  template <typename End, typename Position>
+  void for_each_used(const mesh::Contour& contour, const End& end, const Position& position) const;
 
   /// `vertices` are the mesh's; only those need be right that for_each_used() names. Allocates nothing once warm.
   void collect(const mesh::Contour& contour, std::span<const ShapeVertex> vertices);
@@ -62,11 +62,12 @@ class ContourStrips {
   std::vector<Run> runs_;
 };
 
-template <typename Whole, typename Position>
-void ContourStrips::for_each_used(const mesh::Contour& contour, const Whole& whole, const Position& position) const {
+template <typename End, typename Position>
+void ContourStrips::for_each_used(const mesh::Contour& contour, const End& end, const Position& position) const {
   for (const std::uint32_t edge : contour.edges) {
     const EdgeVertices& e = edges_[edge];
-    for (const std::uint32_t v : {e.a0, e.b0, e.a1, e.b1}) whole(v);
+    end(e.a0);
+    end(e.b0);
     if (e.opposite0 == mesh::kNone) continue;
     position(e.opposite0);
     position(e.opposite1);

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <cstring>
 
+#include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
 #include <glm/mat4x4.hpp>
 #include <glm/vec2.hpp>

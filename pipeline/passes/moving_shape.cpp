@@ -42,15 +42,12 @@ bool MovingShape::move_to(double time_s) {
 void MovingShape::settle(std::uint32_t point, std::span<ShapeVertex> vertices) {
   if (settled_[point] == moves_made_) return;
   settled_[point] = moves_made_;
-  moving_.skin().pose_normals(point);
-  const mesh::Skin& skin = moving_.skin();
-  const std::array<std::int16_t, 4> outline_normal =
-      snorm(mesh::three(push_(mesh::four(skin.outline_normals()[point]))));
-  for (const std::uint32_t v : skin.vertices_of(point)) {
-    vertices[v].position = skin.points()[point];
-    vertices[v].normal = snorm(skin.normals()[v]);
-    vertices[v].outline_normal = outline_normal;
-  }
+  const glm::vec3 position = points()[point];
+  moving_.skin().pose_normals(point, [&](std::uint32_t v, const mesh::Four& normal, const mesh::Four& outline_normal) {
+    vertices[v].position = position;
+    vertices[v].normal = snorm(mesh::three(normal));
+    vertices[v].outline_normal = snorm(mesh::three(push_(outline_normal)));
+  });
 }
 
 void MovingShape::write(std::span<MovedVertex> out) const {

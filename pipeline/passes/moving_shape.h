@@ -29,7 +29,7 @@ class MovingShape {
   /// How often it has moved so far.
   std::uint64_t moves_made() const { return moves_made_; }
 
-  const mesh::Skin& skin() const { return moving_.skin(); }  ///< normals: of settled points alone
+  const mesh::Skin& skin() const { return moving_.skin(); }  ///< with the outline normals of settled points alone
   std::span<const glm::vec3> points() const { return moving_.skin().points(); }
   std::span<const std::uint32_t> welded() const { return welded_; }
   std::span<const glm::uvec3> faces() const { return faces_; }

@@ -102,7 +102,7 @@ void ObjectShape::animate(const mesh::Mesh& mesh, mesh::Rig rig, const mesh::Pla
   levels_.emplace(mesh::Mesh{});
   made_levels_.clear();
   strips_.emplace(mesh, topology, two_sided_, true);
-  borders_->append_used(used_points_);
+  borders_->append_used(used_points_, used_positions_);
   for (std::uint32_t& used : used_points_) used = mesh.welded[used];
   intersections_->append_used(mesh.welded, used_points_);
   std::sort(used_points_.begin(), used_points_.end());
@@ -117,6 +117,7 @@ void ObjectShape::follow() {
   centre_ = glm::dvec3(world_from_object_ * glm::dvec4(box.centre(), 1.0));
   whole_->move(moving_->faces(), moving_->points(), box);
   for (const std::uint32_t point : used_points_) moving_->settle(point, vertices_);
+  for (const std::uint32_t vertex : used_positions_) moving_->place(vertex, vertices_);
   borders_->move(vertices_);
   intersections_->move(moving_->points(), moving_->skin().outline_normals(), vertices_);
 }
