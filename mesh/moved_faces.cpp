@@ -25,8 +25,8 @@ Four larger(const Four& a, const Four& b) { return a > b ? a : b; }
 Four pairs(const glm::vec3& a, const glm::vec3& b) {
   using Eights = double __attribute__((vector_size(16)));
   std::array<double, 2> halves;
-  std::memcpy(&halves[0], &a.x, 8);
-  std::memcpy(&halves[1], &b.x, 8);
+  std::memcpy(&halves[0], &a, 8);
+  std::memcpy(&halves[1], &b, 8);
   return std::bit_cast<Four>(Eights{halves[0], halves[1]});
 }
 
