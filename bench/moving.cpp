@@ -21,12 +21,12 @@
 #include "mesh/assemble.h"
 #include "mesh/bounds.h"
 #include "mesh/contour.h"
-#include "mesh/moving_mesh.h"
 #include "mesh/topology.h"
 #include "outline/line_width.h"
 #include "outline/pass/hull_pass.h"
 #include "pipeline/gl/context.h"
 #include "pipeline/passes/layer_renderer.h"
+#include "pipeline/passes/moving_shape.h"
 #include "pipeline/passes/toon/band_borders.h"
 #include "pipeline/passes/toon/toon_pass.h"
 
@@ -89,9 +89,14 @@ Rigged bending_cylinder(int around, int along) {
 }
 
 // The first three stand still and are drawn whole, as what moves is; the fourth is carried by one node, so that its
-// points are new in every frame without being bent; the last stands still and has levels of detail.
-enum Case { Uniform, Once, EveryFrame, Carried, Skinned, Levels, cases };
-constexpr std::array<const char*, cases> names{"uniform", "once", "every frame", "carried", "skinned", "with levels"};
+// points are new in every frame without being bent; then the bent one, its vertices made on the CPU or by a compute
+// shader, which covers more of the picture; one that goes through all of that but whose bones stand as at rest, so that
+// its picture is that of the third; and one that stands still and has levels of detail.
+enum Case { Uniform, Once, EveryFrame, Carried, Skinned, SkinnedGpu, Straight, Levels, cases };
+constexpr std::array<const char*, cases> names{"uniform", "once",       "every frame", "carried",
+                                               "skinned", "by shaders", "straight",    "with levels"};
+
+bool moves(Case which) { return which >= Carried && which <= Straight; }
 
 // The same points, all on the lower bone, which sways.
 mesh::Rig carried(mesh::Rig rig) {
@@ -102,6 +107,12 @@ mesh::Rig carried(mesh::Rig rig) {
   track.node = 0;
   track.position.values = {glm::vec3(0)};
   for (glm::quat& turn : track.rotation.values) turn = glm::slerp(glm::quat(1, 0, 0, 0), turn, 0.2f);
+  return rig;
+}
+
+// The same bones, whose keys all say the same.
+mesh::Rig straight(mesh::Rig rig) {
+  for (glm::quat& turn : rig.animations[0].tracks[0].rotation.values) turn = glm::quat(1, 0, 0, 0);
   return rig;
 }
 
@@ -126,17 +137,19 @@ class Drawn {
                                                  ? passes::band_borders(rigged.mesh, place, toon)
                                                  : std::vector<std::uint8_t>(rigged.mesh.triangles.size(), 1);
     passes::ObjectShape shape(rigged.mesh, place, uneven);
-    if (which == Skinned) shape.animate(rigged.mesh, rigged.rig, {});
+    if (which == Skinned || which == SkinnedGpu) shape.animate(rigged.mesh, rigged.rig, {});
+    if (which == Straight) shape.animate(rigged.mesh, straight(rigged.rig), {});
     if (which == Carried) shape.animate(rigged.mesh, carried(rigged.rig), {});
     every_frame_ = which == EveryFrame;
     find_contour(rigged.mesh, topology, place);
     passes::StyledObject styled;
-    styled.object = std::make_unique<passes::DrawnObject>(std::move(shape));
+    styled.object = std::make_unique<passes::DrawnObject>(
+        std::move(shape), which == SkinnedGpu ? passes::Skinning::Gpu : passes::Skinning::Cpu);
     styled.passes.push_back(std::make_unique<passes::ToonPass>(*styled.object, rigged.mesh, toon));
     outline::HullOptions line;
     line.style.taper_px = 15;
     if (which != Uniform) line.style.factors = factors;
-    if (which == Skinned || which == Carried) {
+    if (moves(which)) {
       line.style.follow = [to = followed_](const passes::LineStyle::Moved& now) {
         to->at(now.points, now.wanted, now.factors);
       };
@@ -181,11 +194,12 @@ class Drawn {
   passes::Layer layer_;
 };
 
-// What a frame's stages take one by one: bending points and normals, the faces' planes, finding the contour, curvature
+// What a frame's stages take one by one: bending points, making vertices of them, finding the contour, curvature
 // and widths along it, and, to compare, those of all points.
 void measure_stages(const Rigged& rigged, int frames) {
   const mesh::Topology topology = mesh::topology(rigged.mesh);
-  mesh::MovingMesh moving(rigged.mesh, topology, rigged.rig, {});
+  passes::MovingShape moving(rigged.mesh, topology, rigged.rig, {}, glm::dmat4(1));
+  std::vector<passes::MovedVertex> vertices(rigged.mesh.positions.size());
   mesh::ContourFinder finder(rigged.mesh, topology);
   outline::CurvatureWidths widths(topology, {});
   std::vector<float> factors(topology.points.size());
@@ -194,10 +208,11 @@ void measure_stages(const Rigged& rigged, int frames) {
   for (int f = 0; f < frames; ++f) {
     std::array<double, 6> at{processor_ms()};
     moving.move_to(f / 30.0);
-    const std::span<const glm::vec3> points = moving.skin().points();
+    const std::span<const glm::vec3> points = moving.points();
     at[1] = processor_ms();
-    finder.move(topology.faces, points, mesh::bounding_box(points));
+    moving.write(vertices);
     at[2] = processor_ms();
+    finder.move(topology.faces, points, moving.skin().box());
     const mesh::Contour& contour = finder.find(glm::dvec3(0, 1, 4.4));
     at[3] = processor_ms();
     wanted.clear();
@@ -237,8 +252,10 @@ void measure(int around, int along, int frames) {
   }
   std::printf("%9u", rigged.mesh.point_count);
   for (const double ms : median) std::printf(" %13.2f", ms);
-  std::printf(" %12.3f %12.3f %15.3f %13.3f", median[Uniform] / median[Once], median[Once] / median[EveryFrame],
-              median[Carried] / median[Skinned], median[EveryFrame] / median[Skinned]);
+  std::printf(" %12.3f %12.3f %15.3f %13.3f %14.3f %13.3f", median[Uniform] / median[Once],
+              median[Once] / median[EveryFrame], median[Carried] / median[Skinned],
+              median[EveryFrame] / median[Skinned], median[EveryFrame] / median[Straight],
+              median[EveryFrame] / median[SkinnedGpu]);
   measure_stages(rigged, frames);
 }
 
@@ -249,8 +266,9 @@ int main(int count, char** arguments) {
   const auto context = gl::Context::headless();
   std::printf("milliseconds a frame; then what the stages of a skinned one take by themselves\n%9s", "vertices");
   for (const char* name : names) std::printf(" %13s", name);
-  std::printf(" %12s %12s %15s %13s", "once/uniform", "every/once", "skinned/carried", "skinned/every");
-  std::printf(" %9s %9s %9s %9s %9s\n", "skinning", "planes", "contour", "widths", "all widths");
+  std::printf(" %12s %12s %15s %13s %14s %13s", "once/uniform", "every/once", "skinned/carried", "skinned/every",
+              "straight/every", "shaders/every");
+  std::printf(" %9s %9s %9s %9s %9s\n", "skinning", "vertices", "contour", "widths", "all widths");
   // Close to the thesis's vertex counts: 485, 2419, 4250, 10149, 15859, 22226, 28741, 63576.
   const int sizes[][3] = {{21, 22, 400},   {49, 48, 300},  {65, 64, 200},  {101, 100, 100},
                           {126, 125, 100}, {149, 148, 60}, {170, 168, 60}, {252, 252, 40}};

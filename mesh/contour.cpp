@@ -58,59 +58,61 @@ ContourFinder::ContourFinder(const Mesh& mesh, const Topology& topology, const C
 void ContourFinder::move(std::span<const glm::uvec3> faces, std::span<const glm::vec3> points, const Box& box) {
   origin_ = box.centre();
   radius_ = glm::distance(glm::dvec3(box.max), origin_);
-  move_planes(faces, points);
-  if (!flat_faces_.empty()) borrow_normals(faces, points);
+  moved_faces_ = faces;
+  moved_points_ = points;
 }
 
-void ContourFinder::move_planes(std::span<const glm::uvec3> faces, std::span<const glm::vec3> points) {
-  constexpr float least_squared = 1e-12f;  // of the longest edge's fourth power: below, directions are rounding
-  const glm::vec3 origin(origin_);
-  flat_faces_.clear();
-  for (std::size_t f = 0; f < faces.size(); ++f) {
-    const glm::vec3& corner = points[faces[f].x];
-    const glm::vec3 u = points[faces[f].y] - corner, v = points[faces[f].z] - corner;
-    const glm::vec3 w = v - u, a = corner - origin;
-    const float longest = std::max(std::max(glm::dot(u, u), glm::dot(v, v)), glm::dot(w, w));
-    const glm::vec3 cross = glm::cross(u, v);
-    const float squared = glm::dot(cross, cross);
-    flat_[f] = !(squared > least_squared * longest * longest) ? 1 : 0;
-    if (flat_[f] != 0) {
-      flat_faces_.push_back(static_cast<std::uint32_t>(f));
-      continue;
-    }
-    const float inverse = 1.0f / std::sqrt(squared);
-    nx_[f] = cross.x * inverse;
-    ny_[f] = cross.y * inverse;
-    nz_[f] = cross.z * inverse;
-    offset_[f] = (cross.x * a.x + cross.y * a.y + cross.z * a.z) * inverse;
-  }
+// To where the face's points are. Precondition: it has area.
+void ContourFinder::move_plane(std::uint32_t f) {
+  const glm::vec3& corner = moved_points_[moved_faces_[f].x];
+  const glm::vec3 u = moved_points_[moved_faces_[f].y] - corner, v = moved_points_[moved_faces_[f].z] - corner;
+  const glm::vec3 normal = glm::normalize(glm::cross(u, v));
+  nx_[f] = normal.x;
+  ny_[f] = normal.y;
+  nz_[f] = normal.z;
 }
 
 // From neighbour to neighbour, some faces far; those further inside a squeezed part keep the normal they had.
-void ContourFinder::borrow_normals(std::span<const glm::uvec3> faces, std::span<const glm::vec3> points) {
+void ContourFinder::borrow_normals() {
   constexpr int most_steps = 8;
+  for (const std::uint32_t f : flat_faces_) flat_[f] = 2;
   for (int step = 0; step < most_steps; ++step) {
     bool any = false;
     for (const EdgeFaces& edge : consistent_) {
-      if (flat_[edge.face0] == flat_[edge.face1]) continue;
-      const std::uint32_t to = flat_[edge.face0] != 0 ? edge.face0 : edge.face1;
-      const std::uint32_t from = flat_[edge.face0] != 0 ? edge.face1 : edge.face0;
+      if ((flat_[edge.face0] == 2) == (flat_[edge.face1] == 2)) continue;
+      const std::uint32_t to = flat_[edge.face0] == 2 ? edge.face0 : edge.face1;
+      const std::uint32_t from = flat_[edge.face0] == 2 ? edge.face1 : edge.face0;
+      if (flat_[from] == 0) move_plane(from);
       nx_[to] = nx_[from];
       ny_[to] = ny_[from];
       nz_[to] = nz_[from];
-      flat_[to] = 0;
+      flat_[to] = 1;
       any = true;
     }
     if (!any) break;
   }
   const glm::vec3 origin(origin_);
   for (const std::uint32_t f : flat_faces_) {
-    offset_[f] = glm::dot(glm::vec3(nx_[f], ny_[f], nz_[f]), points[faces[f].x] - origin);
+    flat_[f] = 0;
+    offset_[f] = glm::dot(glm::vec3(nx_[f], ny_[f], nz_[f]), moved_points_[moved_faces_[f].x] - origin);
   }
 }
 
+void ContourFinder::classify(std::uint32_t f, const Eye& eye) {
+  const float distance = nx_[f] * eye.x + ny_[f] * eye.y + nz_[f] * eye.z - offset_[f] * eye.w;
+  front_[f] = distance > 0 ? 1 : 0;
+  seen_front_[f] = static_cast<std::uint8_t>((distance > -eye.margin ? 1 : 0) | two_sided_[f]);
+}
+
 const Contour& ContourFinder::find(const glm::dvec4& eye, const ContourLists& lists, const KnownFaces* known) {
-  if (known != nullptr) {
+  if (!moved_faces_.empty()) {
+    known = nullptr;
+    flat_faces_.clear();
+    const Eye seen = seen_from(eye);
+    classify_moved(moved_faces_, moved_points_, glm::vec3(origin_), seen, two_sided_, front_, seen_front_, flat_faces_);
+    if (!flat_faces_.empty()) borrow_normals();
+    for (const std::uint32_t f : flat_faces_) classify(f, seen);
+  } else if (known != nullptr) {
     classify_doubtful(seen_from(eye), *known);
   } else {
     classify_all(seen_from(eye));
@@ -123,7 +125,7 @@ const Contour& ContourFinder::find(const glm::dvec4& eye, const ContourLists& li
   return result_;
 }
 
-ContourFinder::Seen ContourFinder::seen_from(const glm::dvec4& eye) const {
+Eye ContourFinder::seen_from(const glm::dvec4& eye) const {
   const double sign = eye.w < 0 ? -1.0 : 1.0;
   glm::dvec3 towards = (glm::dvec3(eye) - eye.w * origin_) * sign;
   double w = eye.w * sign;
@@ -138,7 +140,7 @@ ContourFinder::Seen ContourFinder::seen_from(const glm::dvec4& eye) const {
           static_cast<float>(w), static_cast<float>(margin)};
 }
 
-void ContourFinder::classify_all(const Seen& eye) {
+void ContourFinder::classify_all(const Eye& eye) {
   known_serial_ = 0;
   const std::size_t count = triangles_.size();
   const float* nx = nx_.data();
@@ -148,7 +150,7 @@ void ContourFinder::classify_all(const Seen& eye) {
   const std::uint8_t* two_sided = two_sided_.data();
   std::uint8_t* front = front_.data();
   std::uint8_t* seen_front = seen_front_.data();
-  const Seen e = eye;  // a copy, that no store may change
+  const Eye e = eye;  // a copy, that no store may change
   for (std::size_t f = 0; f < count; ++f) {
     const float distance = nx[f] * e.x + ny[f] * e.y + nz[f] * e.z - offset[f] * e.w;
     front[f] = distance > 0 ? 1 : 0;
@@ -156,7 +158,7 @@ void ContourFinder::classify_all(const Seen& eye) {
   }
 }
 
-void ContourFinder::classify_doubtful(const Seen& eye, const KnownFaces& known) {
+void ContourFinder::classify_doubtful(const Eye& eye, const KnownFaces& known) {
   if (known.serial != known_serial_) {
     std::copy(known.front.begin(), known.front.end(), front_.begin());
     for (std::size_t f = 0; f < front_.size(); ++f) {
@@ -164,11 +166,7 @@ void ContourFinder::classify_doubtful(const Seen& eye, const KnownFaces& known) 
     }
     known_serial_ = known.serial;
   }
-  for (const std::uint32_t f : known.doubtful) {
-    const float distance = nx_[f] * eye.x + ny_[f] * eye.y + nz_[f] * eye.z - offset_[f] * eye.w;
-    front_[f] = distance > 0 ? 1 : 0;
-    seen_front_[f] = static_cast<std::uint8_t>((distance > -eye.margin ? 1 : 0) | two_sided_[f]);
-  }
+  for (const std::uint32_t f : known.doubtful) classify(f, eye);
 }
 
 namespace {

@@ -19,12 +19,17 @@ class MovingMesh {
 
   /// Returns whether the mesh has moved since the last call. Allocates nothing.
   bool move_to(double video_time_s);
+  /// The same for the points alone; normals are to be asked of the skin.
+  bool move_points_to(double video_time_s);
 
   const Rig& rig() const { return *rig_; }
   const Pose& pose() const { return *pose_; }
   const Skin& skin() const { return skin_; }
+  Skin& skin() { return skin_; }
 
  private:
+  bool find_pose(double video_time_s);
+
   std::unique_ptr<const Rig> rig_;  // at one place, as the poser refers to it
   Playback playback_;
   Poser poser_;

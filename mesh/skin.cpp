@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
@@ -45,10 +46,6 @@ std::vector<glm::vec3> mean_normals(const Topology& topology, std::span<const gl
 
 }  // namespace
 
-glm::mat3 cofactors(const glm::mat3& m) {
-  return {glm::cross(m[1], m[2]), glm::cross(m[2], m[0]), glm::cross(m[0], m[1])};
-}
-
 Skin::Skin(const Mesh& mesh, const Topology& topology, const Rig& rig)
     : first_influence_(rig.first_influence),
       influences_(rig.influences),
@@ -65,9 +62,11 @@ Skin::Skin(const Mesh& mesh, const Topology& topology, const Rig& rig)
   // A normal n at rest is the cofactors' image of the transpose's image of n, up to its length; and where the matrix
   // mirrors, up to its sign.
   const Pose rest = Poser(rig).rest();
+  for (const glm::mat4& joint : rest.joints) joints_.emplace_back(joint);
   std::vector<glm::mat3> bind_from_rest(mesh.point_count);
   for (std::size_t p = 0; p < mesh.point_count; ++p) {
-    const glm::mat3 linear(blended(rest, p));
+    const FourColumns columns = blended(p);
+    const glm::mat3 linear(three(columns.x), three(columns.y), three(columns.z));
     bind_from_rest[p] = glm::transpose(linear) * (glm::determinant(linear) < 0 ? -1.0f : 1.0f);
     const auto to_bind = [&](glm::vec3& n) { n = first_direction(bind_from_rest[p] * n, n, n); };
     to_bind(bind_outline_normals_[p]);
@@ -115,6 +114,7 @@ void Skin::add_morphs(const Pose& pose) {
   const bool any = std::any_of(pose.morph_weights.begin(), pose.morph_weights.end(), [](float w) { return w != 0; });
   if (!any && !morphed_) return;
   morphed_ = any;
+  ++morphs_made_;
   std::copy(bind_points_.begin(), bind_points_.end(), morphed_points_.begin());
   std::copy(bind_normals_.begin(), bind_normals_.end(), morphed_normals_.begin());
   std::copy(bind_outline_normals_.begin(), bind_outline_normals_.end(), morphed_outline_normals_.begin());
@@ -132,44 +132,38 @@ void Skin::add_morphs(const Pose& pose) {
   }
 }
 
-glm::mat4 Skin::blended(const Pose& pose, std::size_t point) const {
-  const std::uint32_t first = first_influence_[point], end = first_influence_[point + 1];
-  glm::mat4 sum = pose.joints[influences_[first].joint];
-  if (end - first == 1) return sum;
-  sum *= influences_[first].weight;
-  for (std::uint32_t i = first + 1; i < end; ++i) sum += pose.joints[influences_[i].joint] * influences_[i].weight;
-  return sum;
-}
-
 void Skin::pose(const Pose& pose) {
-  add_morphs(pose);
-  turns_.resize(pose.joints.size());
-  for (std::size_t j = 0; j < turns_.size(); ++j) turns_[j] = cofactors(glm::mat3(pose.joints[j]));
-  for (std::size_t p = 0; p < points_.size(); ++p) {
-    const Influence& first = influences_[first_influence_[p]];
-    if (first_influence_[p + 1] - first_influence_[p] == 1) {
-      move_point(p, pose.joints[first.joint], turns_[first.joint]);
-    } else {
-      const glm::mat4 object_from_bind = blended(pose, p);
-      move_point(p, object_from_bind, cofactors(glm::mat3(object_from_bind)));
-    }
+  pose_points(pose);
+  for (std::uint32_t p = 0; p < points_.size(); ++p) {
+    pose_normals(p, [&](std::uint32_t v, const Four& normal, const Four&) { normals_[v] = three(normal); });
   }
 }
 
-void Skin::move_point(std::size_t p, const glm::mat4& object_from_bind, const glm::mat3& turn) {
-  points_[p] = glm::vec3(object_from_bind * glm::vec4(morphed_points_[p], 1));
-  const auto turned = [&](const glm::vec3& n) {
-    constexpr float least_squared = 1e-30f, most_squared = 1e30f;
-    const glm::vec3 along = turn * n;
-    const float squared = glm::dot(along, along);
-    if (squared > least_squared && squared < most_squared) return along * (1.0f / std::sqrt(squared));
-    return first_direction(along, glm::mat3(object_from_bind) * n, n);
-  };
-  outline_normals_[p] = turned(morphed_outline_normals_[p]);
-  for (std::uint32_t i = first_vertex_[p]; i < first_vertex_[p + 1]; ++i) {
-    const std::uint32_t v = vertices_[i];
-    normals_[v] = turned(morphed_normals_[v]);
+void Skin::pose_points(const Pose& pose) {
+  add_morphs(pose);
+  pose_joints_.assign(pose.joints.begin(), pose.joints.end());
+  joints_.resize(pose.joints.size());
+  turns_.resize(pose.joints.size());
+  for (std::size_t j = 0; j < joints_.size(); ++j) {
+    joints_[j] = FourColumns(pose.joints[j]);
+    turns_[j] = Turn(joints_[j]);
   }
+  constexpr float most = std::numeric_limits<float>::max();
+  Four low{most, most, most, most}, high = -low;
+  for (std::size_t p = 0; p < points_.size(); ++p) {
+    const std::uint32_t first = first_influence_[p];
+    const Four at = first_influence_[p + 1] - first == 1 ? joints_[influences_[first].joint].at(morphed_points_[p])
+                                                         : blended(p).at(morphed_points_[p]);
+    low = at < low ? at : low;
+    high = at > high ? at : high;
+    points_[p] = three(at);
+  }
+  box_ = points_.empty() ? Box{} : Box{three(low), three(high)};
+}
+
+Four Skin::turned_at_rest_or_so(const Four& along, const glm::vec3& n, std::size_t point) const {
+  const FourColumns m = blended(point);
+  return four(first_direction(three(along), three(m.x * n.x + m.y * n.y + m.z * n.z), n));
 }
 
 }  // namespace rinkaku::mesh

@@ -68,11 +68,32 @@ Verdict import(const Facts& f) {
   return {true, "each object's mesh is read before the first frame"};
 }
 
+std::string names_of(const Facts& f, bool (*wanted)(const ObjectScene&)) {
+  std::string names;
+  for (const ObjectScene& object : f.scene.objects) {
+    if (wanted(object)) names += (names.empty() ? "" : ", ") + object.name;
+  }
+  return names;
+}
+
+template <Skinning Where>
+bool posed(const ObjectScene& o) {
+  return o.animation && o.animation->skinning == Where;
+}
+
 Verdict animate(const Facts& f) {
   if (!f.draws()) return {false, no_object};
   const std::size_t n = f.count([](const ObjectScene& o) { return o.animation.has_value(); });
   if (n == 0) return {false, "no object is animated"};
-  return {true, objects(n) + " played in time with the video"};
+  const auto made = [&](const char* where, bool (*wanted)(const ObjectScene&)) {
+    const std::string names = names_of(f, wanted);
+    return names.empty() ? "" : "; " + names + ": vertices are made " + where;
+  };
+  return {true, objects(n) + " played in time with the video, contours found on the CPU" +
+                    made("on the GPU, or on the CPU where OpenGL itself runs there and would be slower",
+                         posed<Skinning::Auto>) +
+                    made("by a compute shader, as the scene says", posed<Skinning::Gpu>) +
+                    made("on the CPU, as the scene says", posed<Skinning::Cpu>)};
 }
 
 Verdict toon(const Facts& f) {
@@ -87,14 +108,6 @@ Verdict flat(const Facts& f) {
   const std::size_t n = f.count([](const ObjectScene& o) { return !o.toon.has_value() && !o.holdout; });
   if (n == 0) return {false, "no object has toon = false"};
   return {true, objects(n) + " drawn flat (toon = false)"};
-}
-
-std::string names_of(const Facts& f, bool (*wanted)(const ObjectScene&)) {
-  std::string names;
-  for (const ObjectScene& object : f.scene.objects) {
-    if (wanted(object)) names += (names.empty() ? "" : ", ") + object.name;
-  }
-  return names;
 }
 
 Verdict shading_scale(const Facts& f) {

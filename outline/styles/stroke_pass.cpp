@@ -46,6 +46,8 @@ StrokePass::StrokePass(passes::DrawnObject& object, const mesh::Mesh& mesh, cons
       depth_(SurfaceBuffer::Content::Depth),
       array_(make_array()) {
   options_.brush = nullptr;
+  // Strokes also look where they were in the last frame, beside this one's contour.
+  object.ask_for_vertices();
   using Lines = StrokeOptions::Lines;
   for (const DrawnLine& line : options_.drawn) {
     for (const SurfacePlace& place : line) drawn_triangles_.push_back(mesh.triangles[place.triangle]);

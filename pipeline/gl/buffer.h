@@ -39,6 +39,14 @@ class StreamBuffer {
   StreamBuffer();
   /// Fills the next buffer and makes it the current one.
   void write(std::span<const std::byte> bytes);
+  /// The same with what `write(std::span<std::byte>)` puts there, right into the driver's memory: every byte, in a row,
+  /// and reading none.
+  template <typename Write>
+  void fill(std::size_t size_bytes, const Write& write) {
+    do {
+      write(map(size_bytes));
+    } while (!unmap());
+  }
   /// The current buffer; another one after each write().
   GLuint name() const { return ring_[current_].handle.name(); }
 
@@ -47,8 +55,14 @@ class StreamBuffer {
     BufferHandle handle;
     std::size_t capacity_bytes = 0;
   };
+  Slot& next(std::size_t size_bytes);
+  std::span<std::byte> map(std::size_t size_bytes);
+  /// False if the driver lost what was written.
+  bool unmap();
+
   std::array<Slot, 3> ring_;
   std::size_t current_ = 0;
+  bool mapped_ = false;
 };
 
 }  // namespace rinkaku::gl

@@ -1,5 +1,7 @@
 #include "pipeline/gl/context.h"
 
+#include <string_view>
+
 #include <epoxy/egl.h>
 #include <epoxy/gl.h>
 
@@ -56,9 +58,13 @@ std::unique_ptr<Context> Context::headless() {
   ++counters().contexts;
   self->renderer_ = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
   self->version_ = reinterpret_cast<const char*>(glGetString(GL_VERSION));
-  self->software_ =
-      self->renderer_.find("llvmpipe") != std::string::npos || self->renderer_.find("softpipe") != std::string::npos;
+  self->software_ = draws_in_software();
   return self;
+}
+
+bool draws_in_software() {
+  const std::string_view renderer = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
+  return renderer.find("llvmpipe") != std::string_view::npos || renderer.find("softpipe") != std::string_view::npos;
 }
 
 Context::~Context() {

@@ -17,6 +17,9 @@ struct Made {
 };
 Made made();
 
+/// Whether the current context draws on the CPU (Mesa's llvmpipe or softpipe).
+bool draws_in_software();
+
 /// An OpenGL 4.5 core context without a window (EGL, surfaceless), current on the thread that made it until destroyed.
 /// Destroy it on the same thread, after everything made in it.
 class Context {
@@ -30,7 +33,7 @@ class Context {
   const std::string& renderer() const { return renderer_; }
   /// OpenGL's and the driver's version, e.g. "4.5 (Core Profile) Mesa 22.3.6".
   const std::string& version() const { return version_; }
-  /// Drawing runs on the CPU (Mesa's llvmpipe or softpipe).
+  /// See draws_in_software().
   bool software() const { return software_; }
 
  private:

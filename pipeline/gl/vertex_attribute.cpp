@@ -6,7 +6,7 @@ void set_attribute(GLuint array, GLuint location, const VertexAttribute& attribu
   glEnableVertexArrayAttrib(array, location);
   glVertexArrayAttribFormat(array, location, attribute.size, attribute.type, attribute.normalised,
                             static_cast<GLuint>(attribute.offset));
-  glVertexArrayAttribBinding(array, location, 0);
+  glVertexArrayAttribBinding(array, location, attribute.binding);
 }
 
 }  // namespace rinkaku::gl

@@ -44,6 +44,11 @@ passes::ToonOptions toon_options(const ObjectScene& object, const LightScene& li
   return options;
 }
 
+passes::Skinning skinning(const ObjectScene& object) {
+  if (!object.animation || object.animation->skinning == Skinning::Auto) return passes::Skinning::Auto;
+  return object.animation->skinning == Skinning::Gpu ? passes::Skinning::Gpu : passes::Skinning::Cpu;
+}
+
 // What of an object needs no GL.
 struct PreparedObject {
   ObjectScene object;  // with what the mesh's file says of its line
@@ -203,7 +208,7 @@ std::vector<passes::StyledObject> style(const Scene& scene, std::vector<std::opt
       notices.push_back(object.mesh.string() + ": " + warning);
     }
     passes::StyledObject one;
-    one.object = std::make_unique<passes::DrawnObject>(std::move(prepared.shape));
+    one.object = std::make_unique<passes::DrawnObject>(std::move(prepared.shape), skinning(object));
     // The list of passes, in drawing order. A new pass adds its line here.
     if (object.holdout) {
       one.passes.push_back(std::make_unique<passes::HoldoutPass>(*one.object));

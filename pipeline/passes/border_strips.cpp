@@ -69,6 +69,13 @@ BorderStrips::BorderStrips(const mesh::Mesh& mesh, const mesh::Topology& topolog
   runs_.reserve(mesh.parts.size());
 }
 
+void BorderStrips::append_used(std::vector<std::uint32_t>& vertices, std::vector<std::uint32_t>& positions) const {
+  for (const Quad& quad : quads_) {
+    vertices.insert(vertices.end(), {quad.a, quad.b});
+    positions.push_back(quad.beyond);
+  }
+}
+
 void BorderStrips::move(std::span<const ShapeVertex> vertices) {
   auto out = vertices_.begin();
   for (const Quad& quad : quads_) {

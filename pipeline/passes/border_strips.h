@@ -27,6 +27,9 @@ class BorderStrips {
   /// Lists the quads whose two triangles both face the eye. Allocates nothing once warm.
   void collect(const mesh::Contour& contour);
 
+  /// Adds the vertices of the mesh that move() looks at: those at the borders, and those of which it takes only the
+  /// position.
+  void append_used(std::vector<std::uint32_t>& vertices, std::vector<std::uint32_t>& positions) const;
   /// The mesh has moved: `vertices` are its new ones. About 50 ns a border's edge.
   void move(std::span<const ShapeVertex> vertices);
 

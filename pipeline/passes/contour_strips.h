@@ -21,7 +21,12 @@ class ContourStrips {
   /// topology.
   ContourStrips(const mesh::Mesh& mesh, const mesh::Topology& topology, bool two_sided, bool moving = false);
 
-  /// `vertices` are the mesh's. Allocates nothing once warm.
+  /// What collect() will look at: calls end(vertex) for one vertex at each end of the contour's edges, standing for all
+  /// that are at its point; and, of a moving mesh, position(vertex) for those that lie opposite.
+  template <typename End, typename Position>
+  void for_each_used(const mesh::Contour& contour, const End& end, const Position& position) const;
+
+  /// `vertices` are the mesh's; only those need be right that for_each_used() names. Allocates nothing once warm.
   void collect(const mesh::Contour& contour, std::span<const ShapeVertex> vertices);
 
   std::span<const ShapeVertex> vertices() const { return strip_vertices_; }
@@ -56,5 +61,17 @@ class ContourStrips {
   std::vector<std::uint32_t> indices_;
   std::vector<Run> runs_;
 };
+
+template <typename End, typename Position>
+void ContourStrips::for_each_used(const mesh::Contour& contour, const End& end, const Position& position) const {
+  for (const std::uint32_t edge : contour.edges) {
+    const EdgeVertices& e = edges_[edge];
+    end(e.a0);
+    end(e.b0);
+    if (e.opposite0 == mesh::kNone) continue;
+    position(e.opposite0);
+    position(e.opposite1);
+  }
+}
 
 }  // namespace rinkaku::passes

@@ -3,17 +3,34 @@
 #include <cstddef>
 #include <cstdint>
 #include <utility>
+#include <vector>
 
 #include "pipeline/gl/vertex_attribute.h"
 
 namespace rinkaku::passes {
-namespace {}  // namespace
+namespace {
 
-DrawnObject::DrawnObject(ObjectShape shape)
-    : shape_(std::move(shape)), mesh_array_(make_vertex_array()), contour_array_(make_vertex_array()) {
+gl::StaticBuffer colours_of(std::span<const ShapeVertex> vertices) {
+  std::vector<VertexColour> colours;
+  colours.reserve(vertices.size());
+  for (const ShapeVertex& v : vertices) colours.push_back({v.uv, v.colour});
+  return gl::StaticBuffer(std::as_bytes(std::span<const VertexColour>(colours)));
+}
+
+}  // namespace
+
+DrawnObject::DrawnObject(ObjectShape shape, Skinning skinning)
+    : shape_(std::move(shape)),
+      mesh_array_(shape_.moves() ? make_moving_array() : make_vertex_array()),
+      contour_array_(make_vertex_array()) {
   if (shape_.intersects_itself()) intersection_array_ = make_border_array();
   if (!shape_.border_vertices().empty()) border_array_ = make_border_array();
-  if (shape_.moves()) return;
+  if (shape_.moves()) {
+    moved_vertices_.emplace(*shape_.moving(), skinning);
+    vertex_buffer_ = colours_of(shape_.vertices());
+    glVertexArrayVertexBuffer(mesh_array_.name(), 1, vertex_buffer_.name(), 0, sizeof(VertexColour));
+    return;
+  }
   vertex_buffer_ = gl::StaticBuffer(std::as_bytes(shape_.vertices()));
   glVertexArrayVertexBuffer(mesh_array_.name(), 0, vertex_buffer_.name(), 0, sizeof(ShapeVertex));
   if (shape_.border_vertices().empty()) return;
@@ -38,11 +55,22 @@ gl::VertexArrayHandle DrawnObject::make_border_array() {
   return array;
 }
 
+gl::VertexArrayHandle DrawnObject::make_moving_array() {
+  gl::VertexArrayHandle array = gl::make_vertex_array();
+  const GLuint name = array.name();
+  gl::set_attribute(name, 0, {3, GL_FLOAT, GL_FALSE, offsetof(MovedVertex, position)});
+  gl::set_attribute(name, 1, {3, GL_SHORT, GL_TRUE, offsetof(MovedVertex, normal)});
+  gl::set_attribute(name, 2, {4, GL_SHORT, GL_TRUE, offsetof(MovedVertex, outline_normal)});
+  gl::set_attribute(name, 3, {2, GL_FLOAT, GL_FALSE, offsetof(VertexColour, uv), 1});
+  gl::set_attribute(name, 4, {4, GL_UNSIGNED_BYTE, GL_TRUE, offsetof(VertexColour, colour), 1});
+  return array;
+}
+
 void DrawnObject::upload_movement() {
   if (!shape_.moves() || moves_sent_ == shape_.moves_made()) return;
   moves_sent_ = shape_.moves_made();
-  moving_vertex_buffer_.write(std::as_bytes(shape_.vertices()));
-  glVertexArrayVertexBuffer(mesh_array_.name(), 0, moving_vertex_buffer_.name(), 0, sizeof(ShapeVertex));
+  moved_vertices_->follow(*shape_.moving());
+  glVertexArrayVertexBuffer(mesh_array_.name(), 0, moved_vertices_->name(), 0, sizeof(MovedVertex));
   if (shape_.border_vertices().empty()) return;
   moving_border_buffer_.write(std::as_bytes(shape_.border_vertices()));
   glVertexArrayVertexBuffer(border_array_.name(), 0, moving_border_buffer_.name(), 0, sizeof(BorderVertex));

@@ -1,10 +1,12 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 
 #include "pipeline/gl/buffer.h"
 #include "pipeline/gl/handle.h"
+#include "pipeline/passes/moved_vertices.h"
 #include "pipeline/passes/object_shape.h"
 
 namespace rinkaku::passes {
@@ -13,7 +15,8 @@ namespace rinkaku::passes {
 /// context for everything but look().
 class DrawnObject {
  public:
-  explicit DrawnObject(ObjectShape shape);
+  /// `skinning`: of an object that moves.
+  explicit DrawnObject(ObjectShape shape, Skinning skinning = Skinning::Auto);
 
   const ObjectShape& shape() const { return shape_; }
   const Look& look(const View& view, const PixelRect& picture) { return shape_.look(view, picture); }
@@ -26,6 +29,8 @@ class DrawnObject {
   void bind_whole(const gl::StaticBuffer& triangles);
   /// Binds the contour's quads (see ContourStrips); draw them likewise.
   std::span<const Run> bind_contour();
+  /// Has looks bring all vertices along (see ObjectShape::ask_for_vertices).
+  void ask_for_vertices() { shape_.ask_for_vertices(); }
   /// Has looks find lines from now on (see ObjectShape::ask_for_lines).
   void ask_for_lines(const LineStyle& style);
   /// Binds the contour's lines; one draw of as many indices as is returned.
@@ -39,12 +44,12 @@ class DrawnObject {
   void upload_movement();
   static gl::VertexArrayHandle make_vertex_array();
   static gl::VertexArrayHandle make_border_array();
+  static gl::VertexArrayHandle make_moving_array();
   void bind_triangles(GLuint buffer);
 
   ObjectShape shape_;
-  gl::StaticBuffer vertex_buffer_;
-  // In their place where the object moves.
-  gl::StreamBuffer moving_vertex_buffer_;
+  gl::StaticBuffer vertex_buffer_;  // where the object moves, of VertexColours
+  std::optional<MovedVertices> moved_vertices_;
   gl::StreamBuffer moving_border_buffer_;
   std::uint64_t moves_sent_ = 0;
   gl::StreamBuffer front_buffer_;

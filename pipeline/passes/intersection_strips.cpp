@@ -113,6 +113,13 @@ void IntersectionStrips::add_quad(const mesh::Mesh& mesh, const mesh::Cut& cut, 
   quads_.push_back(quad);
 }
 
+void IntersectionStrips::append_used(std::span<const std::uint32_t> welded, std::vector<std::uint32_t>& points) const {
+  for (const Point& p : points_) points.push_back(p.number);
+  for (const Quad& quad : quads_) {
+    for (int k = 0; k < 3; ++k) points.push_back(welded[quad.corners[k]]);
+  }
+}
+
 void IntersectionStrips::move(std::span<const glm::vec3> points, std::span<const glm::vec3> outline_normals,
                               std::span<const ShapeVertex> vertices) {
   const glm::dmat3 world_from_normal = glm::transpose(glm::dmat3(object_from_world_));

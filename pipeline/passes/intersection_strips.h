@@ -32,6 +32,8 @@ class IntersectionStrips {
   /// with its faces classified. Allocates nothing once warm. About 0.1 microseconds a cut.
   void collect(const mesh::Contour& contour, const View& view);
 
+  /// Adds the points of the mesh that move() looks at, with their vertices.
+  void append_used(std::span<const std::uint32_t> welded, std::vector<std::uint32_t>& points) const;
   /// The mesh has moved: its points, outline normals and vertices. Cuts move with the faces that they are in; one whose
   /// faces no longer meet there by half a pixel isn't drawn. Allocates nothing. About 0.3 microseconds a cut.
   void move(std::span<const glm::vec3> points, std::span<const glm::vec3> outline_normals,

@@ -97,58 +97,40 @@ void ObjectShape::collect_vertices(const mesh::Mesh& mesh, const mesh::Topology&
 
 void ObjectShape::animate(const mesh::Mesh& mesh, mesh::Rig rig, const mesh::Playback& playback) {
   const mesh::Topology topology = mesh::topology(mesh);
-  moving_.emplace(mesh, topology, std::move(rig), playback);
-  welded_ = mesh.welded;
-  faces_ = topology.faces;
+  moving_.emplace(mesh, topology, std::move(rig), playback, world_from_object_);
+  push_m_ = moving_->push().length_m();
   levels_.emplace(mesh::Mesh{});
   made_levels_.clear();
   strips_.emplace(mesh, topology, two_sided_, true);
-  // An outline normal may come to lie along any axis.
-  const glm::dmat3 object_from_world(object_from_world_);
-  double squares = 0;
-  for (int axis = 0; axis < 3; ++axis) squares += glm::dot(object_from_world[axis], object_from_world[axis]);
-  push_m_ = 1 / std::sqrt(squares);
-  // Where the object is scaled evenly, what it is pushed by in its own coordinates are the outline normals themselves.
-  const glm::dmat3 product = glm::transpose(object_from_world) * object_from_world * (3 / squares);
-  evenly_scaled_ = true;
-  for (int i = 0; i < 9; ++i) {
-    constexpr double rounding = 1e-9;
-    evenly_scaled_ = evenly_scaled_ && std::abs(product[i / 3][i % 3] - (i % 4 == 0 ? 1 : 0)) < rounding;
-  }
-  if (evenly_scaled_) push_m_ *= std::sqrt(3.0);
+  borders_->append_used(used_points_, used_positions_);
+  for (std::uint32_t& used : used_points_) used = mesh.welded[used];
+  intersections_->append_used(mesh.welded, used_points_);
+  std::sort(used_points_.begin(), used_points_.end());
+  used_points_.erase(std::unique(used_points_.begin(), used_points_.end()), used_points_.end());
+  x_ = y_ = z_ = {};
   follow();
 }
 
-// Brings everything that is kept of the mesh to where it has moved.
+// Brings to where the mesh has moved what is kept of it, but for what each contour needs.
 void ObjectShape::follow() {
-  ++moves_made_;
-  const mesh::Skin& skin = moving_->skin();
-  const std::span<const glm::vec3> points = skin.points(), normals = skin.normals();
-  const std::span<const glm::vec3> outline_normals = skin.outline_normals();
-  for (std::size_t p = 0; p < points.size(); ++p) {
-    x_[p] = points[p].x;
-    y_[p] = points[p].y;
-    z_[p] = points[p].z;
-  }
-  const mesh::Box box = mesh::bounding_box(points);
+  const mesh::Box& box = moving_->skin().box();
   centre_ = glm::dvec3(world_from_object_ * glm::dvec4(box.centre(), 1.0));
-  const glm::mat3 object_from_world(glm::dmat3(object_from_world_) * push_m_);
-  const auto push = [&](const glm::vec3& outline_normal) {
-    if (evenly_scaled_) return outline_normal;
-    const glm::vec3 outwards = world_from_normal_ * outline_normal;
-    const float squared = glm::dot(outwards, outwards);
-    return object_from_world * outwards * (squared > 0 ? 1.0f / std::sqrt(squared) : 0.0f);
-  };
-  for (std::size_t v = 0; v < vertices_.size(); ++v) {
-    const std::uint32_t p = welded_[v];
-    ShapeVertex& out = vertices_[v];
-    out.position = points[p];
-    out.normal = snorm(normals[v]);
-    out.outline_normal = snorm(push(outline_normals[p]));
-  }
-  whole_->move(faces_, points, box);
+  whole_->move(moving_->faces(), moving_->points(), box);
+  for (const std::uint32_t point : used_points_) moving_->settle(point, vertices_);
+  for (const std::uint32_t vertex : used_positions_) moving_->place(vertex, vertices_);
   borders_->move(vertices_);
-  intersections_->move(points, outline_normals, vertices_);
+  intersections_->move(moving_->points(), moving_->skin().outline_normals(), vertices_);
+}
+
+void ObjectShape::settle(const mesh::Contour& contour) {
+  if (asked_for_vertices_) {
+    for (std::uint32_t p = 0; p < moving_->points().size(); ++p) moving_->settle(p, vertices_);
+    return;
+  }
+  const std::span<const std::uint32_t> welded = moving_->welded();
+  strips_->for_each_used(
+      contour, [&](std::uint32_t v) { moving_->settle(welded[v], vertices_); },
+      [&](std::uint32_t v) { moving_->place(v, vertices_); });
 }
 
 const Look& ObjectShape::look(const View& view, const PixelRect& picture) {
@@ -172,6 +154,7 @@ const Look& ObjectShape::look(const View& view, const PixelRect& picture) {
     look_.overlap_px = 1.5f;
   }
   if (known_.cover) take_cover(view, eye);
+  if (moving_) settle(contour);
   strips_->collect(contour, vertices_);
   look_.to_pixels = to_pixels;
   look_.contour_pieces = strips_->pieces();
@@ -256,9 +239,9 @@ void ObjectShape::take_cover(const View& view, const glm::dvec3& eye) {
 void ObjectShape::find_bounds(const glm::mat4& to_pixels, const PixelRect& picture) {
   const glm::mat4 rows = glm::transpose(to_pixels);
   const glm::vec4 row_x = rows[0], row_y = rows[1], row_z = rows[2];
+  const std::span<const glm::vec3> points = moving_ ? moving_->points() : std::span<const glm::vec3>();
   float left = 1e30f, right = -1e30f, top = 1e30f, bottom = -1e30f, nearest = 1e30f, farthest = -1e30f;
-  for (std::size_t i = 0; i < x_.size(); ++i) {
-    const float x = x_[i], y = y_[i], z = z_[i];
+  const auto take = [&](float x, float y, float z) {
     const float depth = row_z.x * x + row_z.y * y + row_z.z * z + row_z.w;
     const float inverse_depth = 1.0f / depth;
     const float px = (row_x.x * x + row_x.y * y + row_x.z * z + row_x.w) * inverse_depth;
@@ -269,7 +252,9 @@ void ObjectShape::find_bounds(const glm::mat4& to_pixels, const PixelRect& pictu
     bottom = py > bottom ? py : bottom;
     nearest = depth < nearest ? depth : nearest;
     farthest = depth > farthest ? depth : farthest;
-  }
+  };
+  for (std::size_t i = 0; i < x_.size(); ++i) take(x_[i], y_[i], z_[i]);
+  for (const glm::vec3& p : points) take(p.x, p.y, p.z);
   if (!(farthest > near_m)) return;  // behind the camera, or no point at all
   look_.nearest_m = nearest;
   look_.farthest_m = farthest;

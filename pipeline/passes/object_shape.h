@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <optional>
 #include <span>
 #include <utility>
@@ -13,58 +12,18 @@
 #include "mesh/contour.h"
 #include "mesh/levels.h"
 #include "mesh/mesh.h"
-#include "mesh/moving_mesh.h"
+#include "mesh/rig.h"
 #include "mesh/topology.h"
 #include "pipeline/passes/border_strips.h"
 #include "pipeline/passes/contour_strips.h"
 #include "pipeline/passes/intersection_strips.h"
 #include "pipeline/passes/line_strips.h"
+#include "pipeline/passes/look.h"
+#include "pipeline/passes/moving_shape.h"
 #include "pipeline/passes/shape_vertex.h"
 #include "pipeline/passes/view.h"
 
 namespace rinkaku::passes {
-
-/// What is known of an object for all eyes of a part of space (see silhouette/): asked each frame, for the eye in the
-/// object's coordinates. Either may be missing, and both may know nothing of an eye.
-struct RegionKnowledge {
-  /// Which faces it sees from the front; null: unknown.
-  std::function<const mesh::KnownFaces*(const glm::dvec3& eye)> faces;
-  /// Vertex indices of triangles that cover the same pixels as the whole mesh, to be drawn with back faces culled;
-  /// empty: unknown. Only for objects whose inside doesn't show: of one flat colour, or holdouts.
-  std::function<std::span<const std::uint32_t>(const glm::dvec3& eye)> cover;
-  double least_px_per_unit = 0;  ///< `cover` holds where one of the mesh's units takes so many pixels
-};
-
-/// What one frame's eye sees of an object. The spans live until the next look.
-struct Look {
-  bool visible = false;
-  PixelRect bounds;                ///< of the mesh itself in the pinhole picture, whole pixels; passes reach further
-  double nearest_m = 0;            ///< the mesh's least depth, along the camera's axis
-  double farthest_m = 0;           ///< the mesh's greatest
-  double distance_m = 0;           ///< from the eye to the object's centre, for the order of drawing
-  bool crosses_eye_plane = false;  ///< then bounds is the whole picture and screen positions are meaningless
-  /// By how much the contour of what is drawn may miss the whole mesh's: what is drawn along the contour must reach so
-  /// far inwards. 0 where the whole mesh is drawn.
-  float overlap_px = 0;
-  std::span<const std::uint32_t> front;  ///< vertex indices of the triangles to draw: those that face the eye
-  std::span<const Run> front_runs;
-  bool cull_back_faces = false;                 ///< some of `front` may turn their back on the eye
-  std::span<const ShapeVertex> strip_vertices;  ///< the contour's quads, see ContourStrips
-  std::span<const std::uint32_t> strip_indices;
-  std::span<const Run> strip_runs;
-  std::span<const LineVertex> line_vertices;  ///< see LineStrips; none if no pass asked for lines
-  std::span<const std::uint32_t> line_indices;
-  std::span<const ContourStrips::Piece> contour_pieces;         ///< the contour's edges, as vertices of the mesh
-  std::span<const ContourStrips::Piece> hidden_contour_pieces;  ///< where it is never seen, see ContourStrips
-  std::span<const std::uint8_t> front_faces;                    ///< per triangle of the mesh: 1 if it faces the eye
-  glm::mat4 to_pixels{1};  ///< takes a position to (x Z, y Z, Z, Z), x and y in pixels of the pinhole picture
-  float line_push = 1;     ///< the farthest that a line reaches, in widths
-  std::span<const std::uint32_t> border_indices;  ///< of border_vertices(), see BorderStrips
-  std::span<const Run> border_runs;
-  std::span<const BorderVertex> intersection_vertices;  ///< see IntersectionStrips
-  std::span<const std::uint32_t> intersection_indices;
-  std::span<const Run> intersection_runs;
-};
 
 /// An object of the scene as it stands in the world, and each frame which triangles face the eye and where the contour
 /// runs. No GL.
@@ -94,13 +53,18 @@ class ObjectShape {
   void use_regions(RegionKnowledge known) { known_ = std::move(known); }
   float largest_line_factor() const { return lines_->largest_factor(); }
 
+  /// Of an object that moves, looks bring along those that lie on the contour and on lines; see ask_for_vertices().
   std::span<const ShapeVertex> vertices() const { return vertices_; }
+  /// From now on looks bring all vertices and outline normals to where the object has moved. About 30 ns a vertex.
+  void ask_for_vertices() { asked_for_vertices_ = true; }
+  /// What there is of it only if it moves; null if it stands still.
+  const MovingShape* moving() const { return moving_ ? &*moving_ : nullptr; }
   bool moves() const { return moving_.has_value(); }
   /// How often it has moved so far: what was made of its vertices is of that count.
-  std::uint64_t moves_made() const { return moves_made_; }
+  std::uint64_t moves_made() const { return moving_->moves_made(); }
   /// Where its welded points are now, in the object's coordinates. Precondition: it moves.
-  std::span<const glm::vec3> moved_points() const { return moving_->skin().points(); }
-  /// And their outline normals, unit, likewise.
+  std::span<const glm::vec3> moved_points() const { return moving_->points(); }
+  /// And their outline normals, unit, likewise; of the same ones as vertices().
   std::span<const glm::vec3> moved_outline_normals() const { return moving_->skin().outline_normals(); }
   /// Of the borders between materials; empty if there are none.
   std::span<const BorderVertex> border_vertices() const { return borders_->vertices(); }
@@ -116,6 +80,7 @@ class ObjectShape {
 
  private:
   void follow();
+  void settle(const mesh::Contour& contour);
   void find_bounds(const glm::mat4& pixels_from_object, const PixelRect& picture);
   mesh::ContourFinder* finder_for(const View& view);
   mesh::ContourFinder* level_finder(std::size_t level);
@@ -148,12 +113,9 @@ class ObjectShape {
   std::optional<BorderStrips> borders_;
   std::optional<IntersectionStrips> intersections_;
 
-  // Of an object that moves.
-  std::optional<mesh::MovingMesh> moving_;
-  std::vector<std::uint32_t> welded_;
-  std::vector<glm::uvec3> faces_;
-  std::uint64_t moves_made_ = 0;
-  bool evenly_scaled_ = false;
+  std::optional<MovingShape> moving_;
+  std::vector<std::uint32_t> used_points_, used_positions_;  // of borders and intersections: points, vertices
+  bool asked_for_vertices_ = false;
 
   RegionKnowledge known_;
   std::vector<Run> front_runs_;

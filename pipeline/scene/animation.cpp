@@ -6,7 +6,9 @@
 
 namespace rinkaku::pipeline {
 
-toml::Schema animation_schema() { return {{.path = "object.animation", .keys = {"clip", "loop", "start_s", "speed"}}}; }
+toml::Schema animation_schema() {
+  return {{.path = "object.animation", .keys = {"clip", "loop", "start_s", "speed", "skinning"}}};
+}
 
 std::optional<AnimationScene> read_animation(const toml::Table& object) {
   if (!object.has("animation")) return std::nullopt;
@@ -30,6 +32,9 @@ std::optional<AnimationScene> read_animation(const toml::Table& object) {
   scene.loop = animation->flag("loop").value_or(scene.loop);
   scene.start_s = animation->number("start_s", {-1e6, 1e6}).value_or(scene.start_s);
   scene.speed = animation->number("speed", {-1000, 1000}).value_or(scene.speed);
+  scene.skinning = read_choice<Skinning>(*animation, "skinning",
+                                         {{"auto", Skinning::Auto}, {"cpu", Skinning::Cpu}, {"gpu", Skinning::Gpu}})
+                       .value_or(scene.skinning);
   return scene;
 }
 

@@ -8,6 +8,9 @@
 
 namespace rinkaku::pipeline {
 
+/// Where the vertices of what moves are made; Auto: by what OpenGL runs on.
+enum class Skinning { Auto, Cpu, Gpu };
+
 /// animation of [[object]]: which clip of its mesh is played, in time with the video.
 struct AnimationScene {
   std::string clip_name;        ///< empty: by number
@@ -15,6 +18,7 @@ struct AnimationScene {
   bool loop = true;
   double start_s = 0;  ///< the video's time at which the clip begins
   double speed = 1;
+  Skinning skinning = Skinning::Auto;
   std::string where;  ///< "file:line:column", for what is found wrong once the mesh is read
 };
 

@@ -9,6 +9,7 @@
 #include <GLFW/glfw3.h>
 
 #include "pipeline/frame/error.h"
+#include "pipeline/gl/context.h"
 
 namespace rinkaku::window {
 namespace {
@@ -82,8 +83,7 @@ std::unique_ptr<Window> Window::open(const std::string& title, int width_px, int
   glfwSwapInterval(0);
   glfwSetWindowUserPointer(self->window_, self.get());
   glfwSetKeyCallback(self->window_, on_key);
-  const std::string renderer = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
-  self->software_ = renderer.find("llvmpipe") != std::string::npos || renderer.find("softpipe") != std::string::npos;
+  self->software_ = gl::draws_in_software();
   return self;
 }
 

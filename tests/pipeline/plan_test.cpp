@@ -68,7 +68,15 @@ TEST(Plan, OnlyAnimatedObjectsArePosed) {
   EXPECT_FALSE(plan_of(scene).runs("animate"));
   scene.objects.back().animation.emplace();
   EXPECT_TRUE(plan_of(scene).runs("animate"));
-  EXPECT_EQ(stage(plan_of(scene), "animate").why, "1 object played in time with the video");
+  scene.objects.back().name = "fox";
+  const std::string played =
+      "1 object played in time with the video, contours found on the CPU; fox: vertices are made ";
+  EXPECT_EQ(stage(plan_of(scene), "animate").why,
+            played + "on the GPU, or on the CPU where OpenGL itself runs there and would be slower");
+  scene.objects.back().animation->skinning = Skinning::Gpu;
+  EXPECT_EQ(stage(plan_of(scene), "animate").why, played + "by a compute shader, as the scene says");
+  scene.objects.back().animation->skinning = Skinning::Cpu;
+  EXPECT_EQ(stage(plan_of(scene), "animate").why, played + "on the CPU, as the scene says");
 }
 
 TEST(Plan, TrackWithoutObjectsIsReadByNothing) {

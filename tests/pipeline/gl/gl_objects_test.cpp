@@ -1,6 +1,7 @@
 // The GL wrappers: owned names, buffers, textures, programs and the target.
 
 #include <cstdint>
+#include <cstring>
 #include <thread>
 #include <type_traits>
 
@@ -240,6 +241,24 @@ TEST_F(Gl, StreamBufferKeepsTheLastTwoWritesApartAndAllocatesOnlyToGrow) {
   }
   buffer.write({});
   EXPECT_EQ(gl::made(), before);
+}
+
+TEST_F(Gl, StreamBufferIsFilledInPlaceAsItIsWritten) {
+  gl::StreamBuffer buffer;
+  std::vector<std::pair<GLuint, std::vector<std::uint8_t>>> written;
+  for (int i = 0; i < 6; ++i) {
+    const std::vector<std::uint8_t> bytes(static_cast<std::size_t>(10 + i % 3 * 30), static_cast<std::uint8_t>(i + 1));
+    buffer.fill(bytes.size(), [&](std::span<std::byte> to) {
+      ASSERT_EQ(to.size(), bytes.size());
+      std::memcpy(to.data(), bytes.data(), bytes.size());
+    });
+    written.emplace_back(buffer.name(), bytes);
+    for (int back = 0; back < 3 && back <= i; ++back) {
+      const auto& [name, wish] = written[static_cast<std::size_t>(i - back)];
+      EXPECT_EQ(contents(name, wish.size()), wish) << i << " minus " << back;
+    }
+  }
+  buffer.fill(0, [](std::span<std::byte> to) { EXPECT_TRUE(to.empty()); });
 }
 
 TEST_F(Gl, MadeCountsEveryObject) {
