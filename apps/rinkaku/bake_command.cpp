@@ -2,9 +2,9 @@
 
 #include <nlohmann/json.hpp>
 
-#include "apps/rinkaku/commands.h"
 #include "apps/rinkaku/interrupt.h"
 #include "apps/rinkaku/json_output.h"
+#include "apps/rinkaku/matte_commands.h"
 #include "apps/rinkaku/progress_bar.h"
 #include "apps/rinkaku/surface_file.h"
 #include "pipeline/files/pending_file.h"

@@ -9,6 +9,7 @@
 #include <CLI/CLI.hpp>
 
 #include "apps/rinkaku/commands.h"
+#include "apps/rinkaku/matte_commands.h"
 #include "pipeline/frame/error.h"
 
 namespace {

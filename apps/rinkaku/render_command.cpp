@@ -12,6 +12,7 @@
 #include "apps/rinkaku/progress_bar.h"
 #include "pipeline/files/pending_file.h"
 #include "pipeline/frame/error.h"
+#include "pipeline/gl/context.h"
 #include "pipeline/pipeline.h"
 #include "pipeline/session/replay.h"
 
@@ -52,6 +53,7 @@ nlohmann::json to_json(const pipeline::RenderReport& report) {
                       {"mean_ms", stage.times.mean_ms()},
                       {"frames", stage.times.count()}});
   }
+  const gl::Made made = gl::made();
   return {{"output", report.output},
           {"frames", report.frames},
           {"posed_frames", report.posed_frames},
@@ -62,6 +64,7 @@ nlohmann::json to_json(const pipeline::RenderReport& report) {
           {"interrupted", report.interrupted},
           {"dropped", report.dropped.before + report.dropped.drawn},
           {"notices", report.notices},
+          {"opengl", {{"programs", made.programs}, {"buffers", made.buffers}, {"textures", made.textures}}},
           {"stages", stages}};
 }
 

@@ -8,9 +8,9 @@
 
 #include <nlohmann/json.hpp>
 
-#include "apps/rinkaku/commands.h"
 #include "apps/rinkaku/grey_image.h"
 #include "apps/rinkaku/json_output.h"
+#include "apps/rinkaku/matte_commands.h"
 #include "pipeline/frame/error.h"
 #include "pipeline/matte/score.h"
 #include "pipeline/source/source.h"

@@ -1,6 +1,9 @@
 #include <algorithm>
 #include <array>
+#include <fstream>
 #include <utility>
+
+#include <nlohmann/json.hpp>
 
 #include "pipeline/pipeline.h"
 #include "report/sections/recording.h"
@@ -17,6 +20,7 @@ struct Case {
   std::vector<std::string> stages{};
   std::vector<double> start_ms{}, frame_ms{}, frame_cpu_ms{};
   double peak_mib = 0;
+  double programs = 0, buffers_and_textures = 0;
 };
 
 std::vector<Case> cases_of(const Settings& settings) {
@@ -33,7 +37,7 @@ std::vector<Case> cases_of(const Settings& settings) {
   const std::string board = "[track]\nboard = " + path("desk/board.toml");
   const std::string line = "outline = { width_px = 3 }\n";
   const std::string lined = plate + pinhole + locked + object + line;
-  const std::array<std::array<std::string, 3>, 9> scenes{{
+  const std::array<std::array<std::string, 3>, 10> scenes{{
       {"empty scene", "", plate},
       {"board that nothing follows", "empty scene", plate + lens + board},
       {"object", "empty scene", plate + pinhole + locked + object},
@@ -44,6 +48,10 @@ std::vector<Case> cases_of(const Settings& settings) {
       {"fluff", "object", plate + pinhole + locked + object + "fluffy = true\n"},
       {"filmed thing before it", "outline",
        lined + "[[foreground]]\nname = \"hand\"\nmethod = \"difference\"\ndistance_m = 1\n"},
+      {"painted water", "empty scene",
+       plate + pinhole + locked +
+           "[water]\n[[water.surface]]\noutline_m = [[-1, -1, 0], [1, -1, 0], [1, 1, 0], [-1, 1, 0]]\n" +
+           "[[water.surface.arrow]]\nfrom_m = [-0.5, 0.5, 0]\nto_m = [0.5, 0.5, 0]\n"},
   }};
   std::vector<Case> cases;
   for (const auto& [name, beyond, text] : scenes) {
@@ -71,10 +79,16 @@ Section left_out_section(const Settings& settings) {
   const int frames = settings.quick ? 15 : 150;
   Section section;
   section.repetitions = settings.quick ? 1 : 7;
+  const std::string timings = (settings.scratch / "timings.json").string();
   for (int round = 0; round < section.repetitions; ++round) {
     for (Case& one : cases) {
       const ChildRun first = run_whole(settings, render_command(settings, one.scene, ":1"));
-      const ChildRun all = run_whole(settings, render_command(settings, one.scene, ":" + std::to_string(frames)));
+      std::vector<std::string> command = render_command(settings, one.scene, ":" + std::to_string(frames));
+      command.insert(command.end(), {"--timings", timings});
+      const ChildRun all = run_whole(settings, command);
+      const nlohmann::json made = nlohmann::json::parse(std::ifstream(timings)).at("opengl");
+      one.programs = made.at("programs");
+      one.buffers_and_textures = made.at("buffers").get<double>() + made.at("textures").get<double>();
       one.start_ms.push_back(first.cpu_ms);
       one.frame_ms.push_back((all.wall_ms - first.wall_ms) / (frames - 1));
       one.frame_cpu_ms.push_back((all.cpu_ms - first.cpu_ms) / (frames - 1));
@@ -87,11 +101,18 @@ Section left_out_section(const Settings& settings) {
       std::to_string(frames) +
       " frames. A scene pays for what it says: the stages that run are told by the plan, as by 'rinkaku "
       "explain'. Start-up is the CPU time of rendering one frame.";
-  section.table.columns = {{"scene", "Scene with"},       {"beyond", "Beyond"},
-                           {"frame_ms", "A frame, ms"},   {"frame_cpu_ms", "A frame, CPU ms"},
-                           {"more_cpu_ms", "more"},       {"start_cpu_ms", "Start-up, CPU ms"},
-                           {"more_start_cpu_ms", "more"}, {"peak_mib", "Memory, MiB"},
-                           {"more_mib", "more"},          {"stages", "Stages that run"}};
+  section.table.columns = {{"scene", "Scene with"},
+                           {"beyond", "Beyond"},
+                           {"frame_ms", "A frame, ms"},
+                           {"frame_cpu_ms", "A frame, CPU ms"},
+                           {"more_cpu_ms", "more"},
+                           {"start_cpu_ms", "Start-up, CPU ms"},
+                           {"more_start_cpu_ms", "more"},
+                           {"peak_mib", "Memory, MiB"},
+                           {"more_mib", "more"},
+                           {"programs", "Shader programs"},
+                           {"gl_objects", "Buffers and textures"},
+                           {"stages", "Stages that run"}};
   Plot plot;
   plot.title = "Memory and time of scenes that have more and more";
   plot.x.title = "CPU time a frame, ms";
@@ -105,7 +126,8 @@ Section left_out_section(const Settings& settings) {
     section.table.rows.push_back({one.name, one.beyond, spread(one.frame_ms).median, cpu,
                                   has_base ? Cell(cpu - spread(base->frame_cpu_ms).median) : Cell(), start,
                                   has_base ? Cell(start - spread(base->start_ms).median) : Cell(), one.peak_mib,
-                                  has_base ? Cell(one.peak_mib - base->peak_mib) : Cell(), joined(one.stages)});
+                                  has_base ? Cell(one.peak_mib - base->peak_mib) : Cell(), one.programs,
+                                  one.buffers_and_textures, joined(one.stages)});
     plot.series.push_back({one.name, {{cpu, one.peak_mib, 0, 0, one.name}}, false});
   }
   plot.says =

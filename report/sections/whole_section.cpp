@@ -24,6 +24,7 @@ struct Run {
   std::string of;  // what grows: "pixels", "triangles", "objects"
   double size;
   std::string label;
+  int frames;
   std::vector<std::string> command;
   Stopwatch watch{};  // per frame
   double peak_mib = 0;
@@ -40,7 +41,7 @@ constexpr int kSide = 72;  // 41,472 triangles
 
 class Runs {
  public:
-  explicit Runs(const Settings& settings) : settings_(settings), frames_(settings.quick ? 30 : 300) {}
+  explicit Runs(const Settings& settings) : settings_(settings) {}
 
   void at_sizes(const std::vector<Size>& sizes) {
     const std::string mesh = mesh_of(kSide);
@@ -48,28 +49,30 @@ class Runs {
       const std::string video = video_of(size),
                         label = std::to_string(size.width_px) + "x" + std::to_string(size.height_px);
       const double pixels = static_cast<double>(size.width_px) * size.height_px;
+      const int frames = frames_at(size);
       const std::string scene = "[plate]\nvideo = \"" + video + "\"\n";
-      add("ffmpeg transcode", "pixels", pixels, label, ffmpeg(video, {}));
-      add("rinkaku, empty scene", "pixels", pixels, label,
+      add("ffmpeg transcode", "pixels", pixels, label, frames, ffmpeg(video, {}));
+      add("rinkaku, empty scene", "pixels", pixels, label, frames,
           render_command(settings_, scratch_file(settings_, "empty" + label + ".toml", scene), ""));
-      add("ffmpeg overlay", "pixels", pixels, label,
+      add("ffmpeg overlay", "pixels", pixels, label, frames,
           ffmpeg(video, {"-i", still_of(size), "-filter_complex",
                          "[0:v][1:v]overlay=" + std::to_string(size.width_px / 3) + ":" +
                              std::to_string(size.height_px / 4)}));
-      if (gstreamer_) add("GStreamer compositor", "pixels", pixels, label, gstreamer(video, size));
-      add("rinkaku, object", "pixels", pixels, label, object_scene(size, label, {mesh}));
+      if (gstreamer_) add("GStreamer compositor", "pixels", pixels, label, frames, gstreamer(video, size));
+      add("rinkaku, object", "pixels", pixels, label, frames, object_scene(size, label, {mesh}));
     }
   }
   void at_triangles(const Size& size, const std::vector<int>& cuts) {
     for (const int n : cuts) {
       const std::string label = std::to_string(8 * n * n);
-      add("rinkaku, triangles", "triangles", 8.0 * n * n, label, object_scene(size, "t" + label, {mesh_of(n)}));
+      add("rinkaku, triangles", "triangles", 8.0 * n * n, label, frames_at(size),
+          object_scene(size, "t" + label, {mesh_of(n)}));
     }
   }
   void at_objects(const Size& size, const std::vector<int>& counts) {
     for (const int count : counts) {
       const std::vector<std::string> meshes(static_cast<std::size_t>(count), mesh_of(12));
-      add("rinkaku, objects", "objects", count, std::to_string(count),
+      add("rinkaku, objects", "objects", count, std::to_string(count), frames_at(size),
           object_scene(size, "o" + std::to_string(count), meshes));
     }
   }
@@ -78,23 +81,28 @@ class Runs {
     for (int round = 0; round < rounds; ++round) {
       for (Run& one : runs) {
         const ChildRun run = run_whole(settings_, one.command);
-        one.watch.add(run.wall_ms / frames_, run.cpu_ms / frames_);
+        one.watch.add(run.wall_ms / one.frames, run.cpu_ms / one.frames);
         one.peak_mib = std::max(one.peak_mib, run.peak_mib);
         if (one.ours) one.latency_ms.push_back(way_of_a_frame_ms());
       }
     }
   }
-  int frames() const { return frames_; }
   bool gstreamer() const { return gstreamer_; }
 
   std::vector<Run> runs;
 
  private:
-  void add(std::string way, std::string of, double size, std::string label, std::vector<std::string> command) {
-    Run one{std::move(way), std::move(of), size, std::move(label), std::move(command)};
+  void add(std::string way, std::string of, double size, std::string label, int frames,
+           std::vector<std::string> command) {
+    Run one{std::move(way), std::move(of), size, std::move(label), frames, std::move(command)};
     one.ours = one.way.starts_with("rinkaku");
     if (one.ours) one.command.insert(one.command.end(), {"--timings", timings().string()});
     runs.push_back(std::move(one));
+  }
+  // As many as take some seconds: start-up is in the times.
+  int frames_at(const Size& size) const {
+    if (settings_.quick) return 30;
+    return std::clamp(300 * 1280 * 720 / (size.width_px * size.height_px), 75, 300);
   }
   std::filesystem::path timings() const { return settings_.scratch / "timings.json"; }
   // What the last run's stages took one after another, for the median frame: its latency where nothing waits.
@@ -125,7 +133,7 @@ class Runs {
                "-r",
                "30",
                "-frames:v",
-               std::to_string(frames_),
+               std::to_string(frames_at(size)),
                "-c:v",
                "mpeg4",
                "-b:v",
@@ -164,7 +172,7 @@ class Runs {
         settings_.scratch / "gstreamer.mp4");
     say("filesrc", video);
     say("! qtdemux ! avdec_mpeg4 ! queue ! mix.sink_0 filesrc", still_of(size));
-    say("! pngdec ! videoconvert ! imagefreeze num-buffers=" + std::to_string(frames_) +
+    say("! pngdec ! videoconvert ! imagefreeze num-buffers=" + std::to_string(frames_at(size)) +
             " ! video/x-raw,framerate=30/1 ! queue ! mix.sink_1",
         {});
     return command;
@@ -190,7 +198,6 @@ class Runs {
   }
 
   const Settings& settings_;
-  int frames_;
   bool gstreamer_ = gstreamer_can_encode();
 };
 
@@ -235,12 +242,12 @@ Section whole_section(const Settings& settings) {
     runs.at_objects(hd, {1, 4, 16, 64});
   }
   Section section;
-  section.repetitions = settings.quick ? 1 : 5;
+  section.repetitions = settings.quick ? 1 : 3;
   runs.run(section.repetitions);
   const auto grows = exponents(runs.runs);
   section.intro =
-      "Whole programs on " + std::to_string(runs.frames()) +
-      " frames of recordings/desk, decoded and encoded as MPEG-4 at 6 Mbit/s, in turn: rinkaku with an empty "
+      std::string("Whole programs on ") + (settings.quick ? "30 frames" : "75 to 300 frames (fewer of large ones)") +
+      " of recordings/desk, decoded and encoded as MPEG-4 at 6 Mbit/s, in turn: rinkaku with an empty "
       "scene beside ffmpeg's transcoding, and with a toon-shaded, outlined ball half as high as the picture "
       "beside ffmpeg's and GStreamer's overlays of a still. Start-up is in the times. Latency is what the stages take "
       "one after another "

@@ -47,6 +47,19 @@ TEST(RenderCommand, JsonTellsFramesSizeSpeedAndStages) {
   EXPECT_EQ(folder.frames("out.mkv").size(), 12u);
 }
 
+TEST(RenderCommand, JsonTellsWhatWasMadeOfOpenGl) {
+  const RenderFolder folder;
+  const auto made = [&folder](const char* scene) {
+    const auto got = test::run_rinkaku(folder, std::string("render ") + scene + " -o made.mkv --force --json");
+    EXPECT_EQ(got.status, 0) << got.err;
+    return test::json_of(got.out).at("opengl");
+  };
+  EXPECT_EQ(made("empty.toml"), nlohmann::json({{"programs", 0}, {"buffers", 0}, {"textures", 0}}));
+  const nlohmann::json drawn = made("scene.toml");
+  EXPECT_GE(drawn.at("programs"), 2);  // shading and line
+  EXPECT_GE(drawn.at("buffers"), 2);   // vertices and indices
+}
+
 TEST(RenderCommand, TimingsTellTheSameInAFile) {
   const RenderFolder folder;
   const test::CliResult got =

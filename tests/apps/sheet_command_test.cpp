@@ -35,6 +35,26 @@ TEST(SheetCommand, DrawsTheChosenStylesSideBySide) {
   EXPECT_EQ(dark_px(1, 1), 0) << "no fourth style";
 }
 
+TEST(SheetCommand, ShowsAMomentOfAClip) {
+  RINKAKU_NEEDS_DATA();
+  const test::ShotFolder folder;
+  const std::string sheet =
+      "sheet " + test::data("meshes/animated/Fox.glb").string() + " -o fox.png --force --styles hull";
+  const auto shown = [&](const std::string& moment) {
+    const test::CliResult got = test::run_rinkaku(folder, sheet + moment);
+    EXPECT_EQ(got.status, 0) << got.err;
+    return test::samples(folder.frames("fox.png").at(0));
+  };
+  const std::string rest = shown(""), run = shown(" --clip Run --time-s 0.3");
+  EXPECT_NE(run, rest);
+  EXPECT_NE(run, shown(" --clip Run --time-s 0.6"));
+  EXPECT_NE(run, shown(" --time-s 0.3")) << "of its first clip";
+  EXPECT_EQ(run, shown(" --clip Run --time-s 0.3"));
+  const test::CliResult unknown = test::run_rinkaku(folder, sheet + " --clip Fly");
+  EXPECT_EQ(unknown.status, 2);
+  EXPECT_TRUE(contains(unknown.err, "no clip \"Fly\"") && contains(unknown.err, "\"Run\"")) << unknown.err;
+}
+
 TEST(SheetCommand, BadCallsSayOneLineAndWriteNothing) {
   const test::ShotFolder folder;
   folder.write("kept.png", "kept");

@@ -35,5 +35,18 @@ TEST(Page, ShowsWhatWasMeasuredAndWhatFailed) {
   EXPECT_EQ(text.find("http"), std::string::npos) << "nothing is loaded from elsewhere";
 }
 
+// A browser passes over a rule that begins with what is no CSS, and the rules' colours are defined in the first.
+TEST(Page, StyleBeginsWithTheRuleThatDefinesColours) {
+  const std::string text = html({});
+  const std::string open = "<style>\n/* report/page.css */\n:root {";
+  const std::size_t style = text.find(open);
+  ASSERT_NE(style, std::string::npos);
+  const std::string rule = text.substr(style, text.find('}', style) - style);
+  for (std::size_t at = text.find("var("); at != std::string::npos; at = text.find("var(", at + 1)) {
+    const std::string name = text.substr(at + 4, text.find(')', at) - at - 4);
+    EXPECT_NE(rule.find(name + ":"), std::string::npos) << name << " is used and not defined";
+  }
+}
+
 }  // namespace
 }  // namespace rinkaku::report
