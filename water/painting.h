@@ -11,6 +11,7 @@
 #include "water/brushes.h"
 #include "water/colours.h"
 #include "water/flow.h"
+#include "water/moments.h"
 #include "water/particles.h"
 #include "water/plots.h"
 #include "water/reference_picture.h"
@@ -53,17 +54,19 @@ class Painting {
            const std::optional<Outlook>& outlook, const PaintingOptions& options);
 
   /// The strokes of a frame, farthest first. Frames may be left out: the water flows on through them. Going back starts
-  /// anew from frame 0. No allocation once warm. Cost: some 1.5 ms for 7,000 strokes.
+  /// anew from frame 0. No allocation once warm. Cost: some 2.5 ms for 7,000 strokes; memory with colours at keys: some
+  /// 60 bytes a stroke for each of the frames from key to key.
   const Strokes& paint(std::int64_t frame, const CameraModel& camera, const RigidTransform& camera_from_world,
                        const MakeReference& reference);
 
-  const Particles& particles() const { return now_->particles; }
+  /// As far as they are known: with colours at keys two keys ahead of the strokes.
+  const Particles& particles() const { return course_->particles; }
   const StrokeSize& size() const { return options_.size; }
-  Deviation deviation() { return now_->flow.deviation(); }
+  Deviation deviation() { return course_->flow.deviation(); }
   const Surface& surface() const { return surface_; }
 
  private:
-  struct Course {  // the water at one moment
+  struct Course {
     Course(const Painting& painting);
     Flow flow;
     Particles particles;
@@ -71,22 +74,27 @@ class Painting {
   struct Seen {  // the surface from this frame's camera
     glm::dvec3 origin, along_x, along_y;
     const CameraModel* camera;
+    glm::dvec3 at(glm::vec2 p) const { return origin + along_x * double(p.x) + along_y * double(p.y); }
   };
   void restart();
   void go_to(std::int64_t frame, const MakeReference& reference);
+  void advance();
+  void keep_moment();
   void advance_colours(const ReferencePicture& reference);
-  glm::dvec2 screen_velocity(const Particle& p) const;  // pixels a second
-  glm::vec3 wave_colour(const Particle& p, const ReferencePicture& reference) const;
-  bool place(const Particle& p, Stroke& stroke) const;
-  void add_stroke(std::size_t i, const Particle& p);
-  float brush_of(const Particle& p) const;
+  glm::dvec2 screen_velocity(const Drifter& d) const;  // pixels a second
+  glm::vec3 wave_colour(const Drifter& d, const ReferencePicture& reference) const;
+  bool place(const Drifter& d, Stroke& stroke) const;
+  void add_stroke(const Drifter& d);
+  std::uint8_t brush_of(const Particle& p) const;
 
   const Surface& surface_;
   std::vector<ArrowKey> arrows_;
   std::vector<Segment> bodies_;
   PaintingOptions options_;
   std::optional<Plots> plots_;
-  std::optional<Course> now_, ahead_;  // ahead_: two keys in advance, for colours at keys to come
+  std::optional<Course> course_;  // at the last frame that is known
+  std::optional<Moments> moments_;
+  std::int64_t frame_ = 0;  // whose strokes were asked for last
   std::optional<KeyColours> keys_;
   std::optional<FollowedColours> followed_;
   std::vector<std::uint32_t> serial_;  // whose colour is kept at a place

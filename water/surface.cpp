@@ -57,7 +57,8 @@ void Surface::set_plane(std::string_view where, const SurfaceOutline& outline, c
     reach = std::max(reach, glm::distance(corners[i], origin_));
   }
   if (!(glm::length(area) > 1e-6 * reach * reach) || reach < 1e-6) {
-    throw input_error(where, "the water's corners lie on a line or in a point", "move them apart");
+    throw input_error(where, "the water's corners enclose nothing: they lie on a line or in a point, or cross over",
+                      "move them apart, in order around the water");
   }
   normal_ = glm::normalize(area);
   const bool upright = std::abs(normal_.z) < 0.1;

@@ -217,7 +217,7 @@ WaterScene read_water(const Table& water) {
                                                       {"followed", WaterScene::Colours::Followed},
                                                       {"sampled", WaterScene::Colours::Sampled}})
                         .value_or(scene.colours);
-    scene.key_frames = static_cast<int>(colours->integer("key_frames", 1, 1000).value_or(scene.key_frames));
+    scene.key_frames = static_cast<int>(colours->integer("key_frames", 1, 120).value_or(scene.key_frames));
     scene.mean = colours->flag("mean").value_or(scene.mean);
     scene.ripple = colours->number("ripple", {0, 10}).value_or(scene.ripple);
   }

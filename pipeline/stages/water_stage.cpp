@@ -190,6 +190,9 @@ WaterStage::WaterStage(const Scene& scene, const CameraModel& camera, double fra
     std::optional<water::Outlook> outlook;
     if (poses.still()) outlook = {camera, *poses.at(0, frames_per_s)};
     sizes.push_back(water::seen_size(surface, outlook));
+    if (outlook && sizes.back() < 1) {  // of a pixel
+      parts_->notices.push_back(s.where + ": nothing of this water is seen from where the camera stands");
+    }
     sum += sizes.back();
   }
   for (std::size_t i = 0; i < water.surfaces.size(); ++i) {

@@ -157,6 +157,21 @@ TEST(DrawnWater, AnArrowInTheSkyIsRefused) {
   EXPECT_FALSE(std::filesystem::exists(folder / "out.mkv"));
 }
 
+// Behind the camera, and level with its eye.
+TEST(DrawnWater, ThatIsNotSeenIsSaidToBe) {
+  const ShotFolder folder;
+  folder.noise_clip("in.mkv", small, 1);
+  for (const std::string corners : {"[-1, -6, 0], [1, -6, 0], [1, -4, 0]", "[-1, 0, 1], [1, 0, 1], [1, 2, 1]"}) {
+    const RenderReport report =
+        folder.render(test::plate + test::locked + "[water]\n[[water.surface]]\noutline_m = [" + corners + "]\n",
+                      {.output = "out.mkv", .overwrite = true});
+    const bool said = std::ranges::any_of(report.notices, [](const std::string& notice) {
+      return notice.find("nothing of this water is seen") != std::string::npos;
+    });
+    EXPECT_TRUE(said) << corners;
+  }
+}
+
 TEST(DrawnWater, ASceneWithoutItMakesNoneOfIt) {
   const ShotFolder folder;
   folder.noise_clip("in.mkv", small, 2);

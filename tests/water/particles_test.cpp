@@ -1,7 +1,9 @@
 #include "water/particles.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -134,6 +136,25 @@ TEST_P(Colours, GoingToAFrameGivesWhatPlayingGives) {
 INSTANTIATE_TEST_SUITE_P(Methods, Colours,
                          testing::Values(water::PaintingOptions::Colours::Keys,
                                          water::PaintingOptions::Colours::Followed));
+
+// With keys the water is known two keys ahead, and strokes are painted where it was.
+TEST(Painting, ColoursAtKeysLeaveStrokesWhereTheyAre) {
+  const River river;
+  water::PaintingOptions options = options_for(800);
+  options.key_frames = 7;
+  water::Painting keys(river.surface, river.arrows, {}, river.outlook(), options);
+  options.colours = water::PaintingOptions::Colours::Sampled;
+  water::Painting sampled(river.surface, river.arrows, {}, river.outlook(), options);
+  const auto places = [&](water::Painting& painting, int frame) {
+    std::vector<std::array<float, 4>> all;
+    for (const water::Stroke& s : painted(painting, river, frame)) {
+      all.push_back({s.middle_px.x, s.middle_px.y, s.half_px.x, s.half_px.y});
+    }
+    std::sort(all.begin(), all.end());  // strokes of equal depth lie in the order of the lists, which isn't the same
+    return all;
+  };
+  for (const int frame : {0, 1, 6, 14, 15, 40, 3}) EXPECT_EQ(places(keys, frame), places(sampled, frame)) << frame;
+}
 
 TEST(Painting, StrokesGoFromTheFarthestToTheNearestAndShrinkWithDepth) {
   const River river;

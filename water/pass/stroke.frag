@@ -19,5 +19,6 @@ void main() {
   vec2 brush = texture(brushes, on_brush).rg;
 #endif
   float alpha = brush.r * paint.a;
-  fragment = vec4(clamp(paint.rgb + (brush.g - 0.5) * 0.16, 0.0, 1.0) * alpha, alpha);
+  // Below 0 the target cuts it off.
+  fragment = vec4(min(paint.rgb + (brush.g - 0.5) * 0.16, 1.0) * alpha, alpha);
 }

@@ -67,7 +67,10 @@ void StrokeQuads::add_corners(const Stroke& stroke, const BrushAtlas& atlas) {
   Corner corner;
   corner.colour = stroke.colour, corner.blend = stroke.blend;
   corner.next_brush = static_cast<float>(level.step_px) * texel.x;
-  for (int i = 0; i < 4; ++i) {
+  // Along the quad's diagonal both of its triangles are drawn into the same blocks of pixels, as software does it: the
+  // diagonal that lies more upright or level meets fewer.
+  const glm::vec2 rising = glm::abs(along + across), falling = glm::abs(along - across);
+  for (const int i : rising.x + rising.y < falling.x + falling.y ? std::array{1, 3, 0, 2} : std::array{0, 1, 2, 3}) {
     const bool right = (i & 1) != 0, top = (i & 2) != 0;
     corner.place = glm::vec3(stroke.middle_px + (right ? along : -along) + (top ? across : -across), stroke.depth_m);
     corner.brush = {right ? most.x : least.x, top ? most.y : least.y};
