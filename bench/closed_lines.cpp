@@ -1,17 +1,21 @@
 // Whether lines are closed: draws meshes from many sides, once with a line of even width and once with one that follows
 // curvature, and walks their contours in the pictures. Prints for each mesh how much of the contour was looked at and
-// how many gaps were found, with the first view and pixel of them; a gap is a place without ink as far out as the
-// line, 3 pixels wide, reaches; "thin" are places whose line ends before that. Exit status 1 if there was one.
+// how many gaps were found, and each view with gaps and the pixels of the first few; a gap is a place without ink as
+// far out as the line, 3 pixels wide, reaches; "thin" are places whose line ends before that. Exit status 1 if there
+// was one.
 //
-//   rinkaku-bench-closed-lines [VIEWS [MESH_OR_FOLDER...]]
+//   rinkaku-bench-closed-lines [--view I] [--save FOLDER] [VIEWS [MESH_OR_FOLDER...]]
 //
-// 500 views of the closed meshes of the test data if nothing is said.
+// 500 views of the closed meshes of the test data if nothing is said. --view: only that one of them; --save: the
+// pictures that have gaps, or of that view, as PPM, over black.
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <filesystem>
+#include <fstream>
 #include <numbers>
 #include <string>
 #include <vector>
@@ -52,7 +56,28 @@ passes::View view_of(int i, int views) {
   return view;
 }
 
-std::uint64_t walk(const fs::path& file, int views) {
+struct Wish {
+  int views = 500;
+  int only = -1;
+  fs::path save;
+};
+
+void save(const passes::Layer& layer, const fs::path& path) {
+  std::string bytes = "P6 " + std::to_string(kSide_px) + " " + std::to_string(kSide_px) + " 255\n";
+  const std::size_t head = bytes.size();
+  bytes.resize(head + std::size_t{3} * kSide_px * kSide_px, '\0');
+  for (int y = 0; y < layer.rect.height_px; ++y) {
+    for (int x = 0; x < layer.rect.width_px; ++x) {
+      const std::size_t from = static_cast<std::size_t>(y * layer.rect.width_px + x) * 4;
+      const std::size_t to = static_cast<std::size_t>((y + layer.rect.y_px) * kSide_px + x + layer.rect.x_px) * 3;
+      std::copy_n(layer.rgba.begin() + static_cast<std::ptrdiff_t>(from), 3,
+                  bytes.begin() + static_cast<std::ptrdiff_t>(head + to));
+    }
+  }
+  std::ofstream(path, std::ios::binary) << bytes;
+}
+
+std::uint64_t walk(const fs::path& file, const Wish& wish) {
   const mesh::Mesh mesh = [&] {
     mesh::Mesh read = mesh::import(file).mesh;
     // White all over, so that ink can be told from it.
@@ -67,6 +92,7 @@ std::uint64_t walk(const fs::path& file, int views) {
   outline::LineWalker walker(topology, kLine_px - 0.5);
   std::uint64_t all_gaps = 0;
   for (const pipeline::LineMethod method : {pipeline::LineMethod::Uniform, pipeline::LineMethod::Curvature}) {
+    const char* name = method == pipeline::LineMethod::Uniform ? "uniform" : "curvature";
     pipeline::OutlineScene line;
     line.method = method;
     line.width_px = kLine_px;
@@ -76,27 +102,28 @@ std::uint64_t walk(const fs::path& file, int views) {
     const auto renderer = pipeline::lone_mesh(mesh, place, unlit, line, {0, 0, kSide_px, kSide_px});
     outline::WalkedLine sum;
     int open_views = 0;
-    std::string first;
-    for (int i = 0; i < views; ++i) {
-      const passes::View view = view_of(i, views);
+    std::string where;
+    for (int i = 0; i < wish.views; ++i) {
+      if (wish.only >= 0 && i != wish.only) continue;
+      const passes::View view = view_of(i, wish.views);
       passes::Layer layer;
       renderer->draw(view, layer);
       const outline::WalkedLine walked = walker.walk(view, place, layer);
       sum.border += walked.border, sum.border_gaps += walked.border_gaps;
       sum.places += walked.places, sum.place_gaps += walked.place_gaps;
       sum.place_thin += walked.place_thin;
+      if (!wish.save.empty() && (walked.gaps() > 0 || wish.only >= 0)) {
+        save(layer, wish.save / (file.stem().string() + "_" + name + "_" + std::to_string(i) + ".ppm"));
+      }
       if (walked.gaps() == 0) continue;
       ++open_views;
-      if (first.empty()) {
-        first = " view " + std::to_string(i) + ":";
-        for (const glm::ivec2& p : walked.where) first += " " + std::to_string(p.x) + "," + std::to_string(p.y);
-      }
+      where += " view " + std::to_string(i) + ":";
+      for (const glm::ivec2& p : walked.where) where += " " + std::to_string(p.x) + "," + std::to_string(p.y);
     }
-    std::printf("| %s | %s | %llu | %llu | %llu | %llu | %llu | %d |%s\n", file.stem().string().c_str(),
-                method == pipeline::LineMethod::Uniform ? "uniform" : "curvature",
+    std::printf("| %s | %s | %llu | %llu | %llu | %llu | %llu | %d |%s\n", file.stem().string().c_str(), name,
                 static_cast<unsigned long long>(sum.border), static_cast<unsigned long long>(sum.border_gaps),
                 static_cast<unsigned long long>(sum.places), static_cast<unsigned long long>(sum.place_gaps),
-                static_cast<unsigned long long>(sum.place_thin), open_views, first.c_str());
+                static_cast<unsigned long long>(sum.place_thin), open_views, where.c_str());
     std::fflush(stdout);
     all_gaps += sum.gaps();
   }
@@ -122,16 +149,22 @@ std::vector<fs::path> meshes_of(const std::vector<fs::path>& named) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  const int views = argc > 1 ? std::max(std::atoi(argv[1]), 1) : 500;
+  Wish wish;
+  while (argc > 2 && std::strncmp(argv[1], "--", 2) == 0) {
+    if (std::strcmp(argv[1], "--view") == 0) wish.only = std::max(std::atoi(argv[2]), 0);
+    if (std::strcmp(argv[1], "--save") == 0) wish.save = argv[2];
+    argc -= 2, argv += 2;
+  }
+  if (argc > 1) wish.views = std::max(std::atoi(argv[1]), 1);
   std::vector<fs::path> named(argv + std::min(argc, 2), argv + argc);
   if (named.empty()) named.emplace_back(fs::path(RINKAKU_TEST_DATA) / "meshes/closed");
   std::uint64_t gaps = 0;
   try {
     const auto context = gl::Context::headless();
-    std::printf("%d views each, %dx%d\n\n", views, kSide_px, kSide_px);
+    std::printf("%d views each, %dx%d\n\n", wish.views, kSide_px, kSide_px);
     std::printf("| mesh | line | border pixels | gaps | places seen | gaps | thin | views with gaps |\n");
     std::printf("| --- | --- | --- | --- | --- | --- | --- | --- |\n");
-    for (const fs::path& file : meshes_of(named)) gaps += walk(file, views);
+    for (const fs::path& file : meshes_of(named)) gaps += walk(file, wish);
   } catch (const Error& error) {
     std::fprintf(stderr, "%s\n", error.what());
     return error.exit_status();

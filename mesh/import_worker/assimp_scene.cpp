@@ -171,8 +171,7 @@ class SceneReader {
     Material material;
     if (index < scene_.mNumMaterials)
       material = read_material(*scene_.mMaterials[index], format_.linear_colours, textures_);
-    material.line = lines_.of(index, material.name);
-    if (material.line) lines_.read_width_texture(*material.line, textures_);
+    lines_.read_line(index, material, textures_);
     // What Assimp adds where a file has none.
     if (material.name == AI_DEFAULT_MATERIAL_NAME || !format_.materials) material.base_colour = kPlainColour;
     result_.soup.materials.push_back(std::move(material));

@@ -125,6 +125,21 @@ std::span<const char> picture_of(const Json& file, std::span<const char> glb, in
   return binary.subspan(offset, static_cast<std::size_t>(length));
 }
 
+// What a VRM 1.0 material says of its width texture's coordinates that isn't followed: a mesh keeps one set of them,
+// that of the surface's colour. Empty if nothing.
+std::string left_out(const Json& material) {
+  const auto set_of = [](const Json& texture) { return std::max(index_of(member(texture, "texCoord")), 0); };
+  const Json& texture =
+      member(member(member(material, "extensions"), "VRMC_materials_mtoon"), "outlineWidthMultiplyTexture");
+  const int set = set_of(texture);
+  const int kept = set_of(member(member(material, "pbrMetallicRoughness"), "baseColorTexture"));
+  const Json& transform = member(member(texture, "extensions"), "KHR_texture_transform");
+  if (transform.is_object()) return "has a transform (KHR_texture_transform), which is left out";
+  if (set == kept) return {};
+  return "uses texture coordinates " + std::to_string(set) + ", which aren't read; drawn with coordinates " +
+         std::to_string(kept);
+}
+
 }  // namespace
 
 MtoonLines::MtoonLines(std::span<const char> glb) {
@@ -135,26 +150,35 @@ MtoonLines::MtoonLines(std::span<const char> glb) {
     const Json& name = member(materials[i], "name");
     std::optional<MaterialLine> line = line_1(member(member(materials[i], "extensions"), "VRMC_materials_mtoon"));
     if (!line) line = line_0(element(vrm_0, i));
+    std::string warning;
+    if (line && line->unit == Unit::None) line->width_texture = -1;
     if (line && line->width_texture >= 0) {
       const std::span<const char> picture = picture_of(file, glb, line->width_texture);
       if (!picture.empty()) pictures_.try_emplace(line->width_texture, picture.begin(), picture.end());
+      warning = picture.empty() ? "is no picture within the file; drawn with the whole width" : left_out(materials[i]);
     }
-    materials_.push_back({name.is_string() ? name.get<std::string>() : "", line});
+    materials_.push_back({name.is_string() ? name.get<std::string>() : "", line, warning});
   }
 }
 
-void MtoonLines::read_width_texture(MaterialLine& line, TextureReader& textures) const {
-  const int number = std::exchange(line.width_texture, -1);
+void MtoonLines::read_line(unsigned index, Material& material, TextureReader& textures) const {
+  const Named* const named = find(index, material.name);
+  if (named == nullptr || !named->line) return;
+  material.line = named->line;
+  if (!named->warning.empty())
+    textures.warnings.push_back("texture of outline widths of material '" + material.name + "' " + named->warning);
+  const int number = std::exchange(material.line->width_texture, -1);
   const auto found = pictures_.find(number);
   if (found == pictures_.end()) return;
-  line.width_texture = textures.number_of("of outline widths, number " + std::to_string(number), found->second);
+  material.line->width_texture =
+      textures.number_of("of outline widths, number " + std::to_string(number), found->second);
 }
 
-std::optional<MaterialLine> MtoonLines::of(unsigned index, const std::string& name) const {
-  if (index < materials_.size() && materials_[index].name == name) return materials_[index].line;
+const MtoonLines::Named* MtoonLines::find(unsigned index, const std::string& name) const {
+  if (index < materials_.size() && materials_[index].name == name) return &materials_[index];
   const auto found =
       std::find_if(materials_.begin(), materials_.end(), [&](const Named& named) { return named.name == name; });
-  return found != materials_.end() ? found->line : std::nullopt;
+  return found != materials_.end() ? &*found : nullptr;
 }
 
 }  // namespace rinkaku::mesh

@@ -19,17 +19,19 @@ class MtoonLines {
   /// Of a whole binary glTF. Nothing is found in what isn't one, and in values that make no sense. Throws nothing.
   explicit MtoonLines(std::span<const char> glb);
 
-  /// Of the material that Assimp has at `index` under a name; it numbers them in the order of their use. Width
-  /// textures are still the file's own numbers; read_width_texture() makes them the mesh's.
-  std::optional<MaterialLine> of(unsigned index, const std::string& name) const;
-  /// Decodes the picture, if the line has one that lies in the file.
-  void read_width_texture(MaterialLine& line, TextureReader& textures) const;
+  /// Gives the material that Assimp has at `index` its line, if the file says anything about it; Assimp numbers
+  /// materials in the order of their use, so its name counts as well. Decodes the line's width texture, if it lies in
+  /// the file; what of it can't be followed becomes a warning.
+  void read_line(unsigned index, Material& material, TextureReader& textures) const;
 
  private:
   struct Named {
     std::string name;
-    std::optional<MaterialLine> line;
+    std::optional<MaterialLine> line;  // with the file's own number of the width texture
+    std::string warning;
   };
+  const Named* find(unsigned index, const std::string& name) const;
+
   std::vector<Named> materials_;               // as the file numbers them
   std::map<int, std::vector<char>> pictures_;  // of width textures, by the file's number
 };

@@ -112,6 +112,7 @@ void LineWalker::walk_border(const passes::Layer& layer, WalkedLine& walked) con
 void LineWalker::walk_edges(const passes::Layer& layer, WalkedLine& walked) {
   contour_.clear();
   lines_at_.assign(points_.size(), 0);
+  pieces_at_.resize(points_.size());
   for (const mesh::Edge& edge : topology_.edges) {
     if (edge.face1 == mesh::kNone || facing_[edge.face0] == facing_[edge.face1]) continue;
     const std::uint32_t front = facing_[edge.face0] != 0 ? edge.face0 : edge.face1;
@@ -120,31 +121,57 @@ void LineWalker::walk_edges(const passes::Layer& layer, WalkedLine& walked) {
     const glm::dvec3 normal = glm::cross(points_[f.y] - points_[f.x], points_[f.z] - points_[f.x]);
     const std::uint32_t beyond = mesh::opposite_point(topology_, edge, front == edge.face0 ? edge.face1 : edge.face0);
     if (glm::dot(normal, points_[beyond] - points_[edge.a]) > 0) continue;
-    contour_.push_back({&edge, front});
-    ++lines_at_[edge.a], ++lines_at_[edge.b];
+    const auto number = static_cast<std::uint32_t>(contour_.size());
+    contour_.push_back({&edge, front, outwards_of(edge, front)});
+    for (const std::uint32_t p : {edge.a, edge.b}) {
+      const std::uint32_t before = lines_at_[p]++;
+      if (before < 2) pieces_at_[p][before] = number;
+    }
   }
   ends_px_.clear();
-  for (std::size_t p = 0; p < lines_at_.size(); ++p) {
-    if (lines_at_[p] == 1) ends_px_.push_back(pixels_[p]);
+  for (std::uint32_t p = 0; p < lines_at_.size(); ++p) {
+    if (lines_at_[p] == 1 || (lines_at_[p] == 2 && folds_behind(p))) ends_px_.push_back(pixels_[p]);
   }
-  for (const Piece& piece : contour_) walk_edge(*piece.edge, piece.front, layer, walked);
+  for (const Piece& piece : contour_) walk_edge(piece, layer, walked);
 }
 
 bool LineWalker::is_end(const glm::dvec2& pixel) const {
-  constexpr double last_px = 2;
+  constexpr double last_px = 2.5;  // 2, and what rounding to pixels takes
   return std::any_of(ends_px_.begin(), ends_px_.end(),
                      [&](const glm::dvec2& end) { return glm::length(end - pixel) < last_px; });
 }
 
-void LineWalker::walk_edge(const mesh::Edge& edge, std::uint32_t front, const passes::Layer& layer,
-                           WalkedLine& walked) const {
+// Across the screen, away from the face that is seen; 0 for an edge that is seen end on.
+glm::dvec2 LineWalker::outwards_of(const mesh::Edge& edge, std::uint32_t front) const {
   const glm::dvec2 a = pixels_[edge.a], b = pixels_[edge.b];
   const double length_px = glm::length(b - a);
   constexpr double least_px = 1e-6;
-  if (length_px < least_px) return;
-  glm::dvec2 outwards = glm::dvec2(b.y - a.y, a.x - b.x) / length_px;
+  if (length_px < least_px) return glm::dvec2(0);
+  const glm::dvec2 outwards = glm::dvec2(b.y - a.y, a.x - b.x) / length_px;
   const std::uint32_t opposite = mesh::opposite_point(topology_, edge, front);
-  if (glm::dot(pixels_[opposite] - a, outwards) > 0) outwards = -outwards;
+  return glm::dot(pixels_[opposite] - a, outwards) > 0 ? -outwards : outwards;
+}
+
+// Whether the contour turns back sharply at a point and one of its two pieces there is hidden: a cusp, as it has where
+// it passes from sight behind a smooth surface. At the tip of a spike, both are seen.
+bool LineWalker::folds_behind(std::uint32_t point) const {
+  const Piece &first = contour_[pieces_at_[point][0]], &second = contour_[pieces_at_[point][1]];
+  if (glm::dot(first.outwards, second.outwards) >= 0) return false;
+  const auto hidden = [&](const Piece& piece) {
+    const std::uint32_t other = piece.edge->a == point ? piece.edge->b : piece.edge->a;
+    const double length_px = glm::length(pixels_[other] - pixels_[point]);
+    const double t = 0.5 / std::max(std::ceil(length_px), 1.0);  // the first place along it
+    const double depth = 1 / ((1 - t) / points_[point].z + t / points_[other].z);
+    return !is_open(nearest(glm::mix(pixels_[point], pixels_[other], t) + piece.outwards * across_px_), depth);
+  };
+  return hidden(first) != hidden(second);
+}
+
+void LineWalker::walk_edge(const Piece& piece, const passes::Layer& layer, WalkedLine& walked) const {
+  const mesh::Edge& edge = *piece.edge;
+  const glm::dvec2 a = pixels_[edge.a], b = pixels_[edge.b], outwards = piece.outwards;
+  if (outwards == glm::dvec2(0)) return;
+  const double length_px = glm::length(b - a);
   const int steps = static_cast<int>(std::ceil(length_px));
   for (int i = 0; i < steps; ++i) {
     const double t = (i + 0.5) / steps;

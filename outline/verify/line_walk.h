@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -33,7 +34,7 @@ struct WalkedLine {
 /// gone along in steps of a pixel. A place counts if nothing as near as the contour lies around the pixel that is
 /// `across_px` outside it; across the line as far as there, at least half of some pixel must be ink. So lines over the
 /// mesh itself are walked as well as those around it. The last 2 pixels before a contour runs behind its own surface
-/// may be bare.
+/// may be bare, also those of one that turns back at a cusp.
 ///
 /// Preconditions: a closed, consistently wound mesh, all of it before the eye; the picture shows it white (1, 1, 1) and
 /// its line red (1, 0, 0), wider than `across_px` + 0.5, not tapered and without a lens. Cost: some 10 ms for 100,000
@@ -51,7 +52,6 @@ class LineWalker {
   void fill_depths();
   void walk_border(const passes::Layer& layer, WalkedLine& walked) const;
   void walk_edges(const passes::Layer& layer, WalkedLine& walked);
-  void walk_edge(const mesh::Edge& edge, std::uint32_t front, const passes::Layer& layer, WalkedLine& walked) const;
   bool is_open(const glm::ivec2& pixel, double depth) const;
   bool is_end(const glm::dvec2& pixel) const;
   double depth_at(int x, int y) const { return depths_[static_cast<std::size_t>(y) * width_px_ + x]; }
@@ -66,10 +66,15 @@ class LineWalker {
   struct Piece {
     const mesh::Edge* edge;
     std::uint32_t front;  // its face that faces the eye
+    glm::dvec2 outwards;
   };
-  std::vector<Piece> contour_;           // without what lies in hollows
-  std::vector<std::uint32_t> lines_at_;  // per point: pieces that end there
-  std::vector<glm::dvec2> ends_px_;      // points at which the contour runs behind its own surface
+  glm::dvec2 outwards_of(const mesh::Edge& edge, std::uint32_t front) const;
+  bool folds_behind(std::uint32_t point) const;
+  void walk_edge(const Piece& piece, const passes::Layer& layer, WalkedLine& walked) const;
+  std::vector<Piece> contour_;                           // without what lies in hollows
+  std::vector<std::uint32_t> lines_at_;                  // per point: pieces that end there
+  std::vector<std::array<std::uint32_t, 2>> pieces_at_;  // per point: the first two of them
+  std::vector<glm::dvec2> ends_px_;                      // points at which the contour runs behind its own surface
 };
 
 }  // namespace rinkaku::outline

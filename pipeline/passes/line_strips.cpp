@@ -187,6 +187,19 @@ void LineStrips::note_hidden(std::span<const ContourStrips::Piece> pieces, std::
   }
 }
 
+// Where a contour is hidden for less than a pixel, two lines' ends meet, each pushed its own way: what closes them.
+void LineStrips::bridge_hidden(std::span<const ContourStrips::Piece> pieces) {
+  constexpr float longest_px = 1;
+  for (const ContourStrips::Piece& piece : pieces) {
+    const std::uint32_t from = place_of_[welded_[piece.from]], to = place_of_[welded_[piece.to]];
+    if (from >= places_.size() || to >= places_.size()) continue;
+    const Place &a = places_[from], &b = places_[to];
+    if (a.point != welded_[piece.from] || b.point != welded_[piece.to] || a.ends == 0 || b.ends == 0) continue;
+    const glm::vec2 way = glm::vec2(b.seen) * a.seen.z - glm::vec2(a.seen) * b.seen.z;
+    if (glm::length(way) < longest_px * std::abs(a.seen.z * b.seen.z)) lines_.push_back({from, to, 0, 0});
+  }
+}
+
 // How long the contour is hidden from the end of a line to the start of the next.
 float LineStrips::hidden_px(std::uint32_t from) const {
   float way_px = 0;
@@ -303,6 +316,7 @@ void LineStrips::collect(const ContourStrips& contour, std::span<const ShapeVert
     note_hidden(contour.hidden_pieces(), vertices, to_pixels, lens);
     taper_ends();
   }
+  bridge_hidden(contour.hidden_pieces());
   for (const Line& line : lines_) emit(line);
   for (const Place& place : places_) {
     if (!place.cut) continue;

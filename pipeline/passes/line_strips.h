@@ -116,6 +116,7 @@ class LineStrips {
   void find_push(Place& place) const;
   void note_hidden(std::span<const ContourStrips::Piece> pieces, std::span<const ShapeVertex> vertices,
                    const glm::mat4& to_pixels, const CameraModel* lens);
+  void bridge_hidden(std::span<const ContourStrips::Piece> pieces);
   float hidden_px(std::uint32_t from) const;
   void taper_ends();
   void emit(const Line& line);

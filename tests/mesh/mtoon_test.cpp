@@ -131,6 +131,29 @@ TEST_F(MtoonLine, WidthTexturesAndLightingAreRead) {
   EXPECT_EQ(named(mesh, "hair").line->lit, 1) << "as VRM 1.0 has it by default";
 }
 
+// One warning each for what isn't followed; none for the picture of a material without an outline.
+TEST_F(MtoonLine, WhatIsNotReadOfWidthTexturesIsSaid) {
+  const auto material = [](const char* name, const char* mode, const char* texture) {
+    return std::string(R"({"name":")") + name + R"(","extensions":{"VRMC_materials_mtoon":{"outlineWidthMode":")" +
+           mode + R"(","outlineWidthFactor":0.004,"outlineWidthMultiplyTexture":{)" + texture + "}}}}";
+  };
+  const std::string glb = glb_of(
+      material("skin", "worldCoordinates", R"("index":0)") + "," +
+          material("hair", "worldCoordinates", R"("index":1,"texCoord":1)") + "," +
+          material("eye", "none", R"("index":1)"),
+      R"({"VRM":{"materialProperties":[]}})", R"(,{"buffer":0,"byteLength":36})",
+      R"("images":[{"uri":"wide.png"},{"bufferView":1,"mimeType":"image/png"}],"textures":[{"source":0},{"source":1}],)");
+  std::ofstream(folder_ / "figure.glb", std::ios::binary) << glb;
+  const Imported read = import(folder_ / "figure.glb");
+  EXPECT_TRUE(read.mesh.textures.empty());
+  std::string all;
+  for (const std::string& warning : read.summary.warnings) all += warning + "\n";
+  EXPECT_NE(all.find("of material 'skin' is no picture within the file"), std::string::npos) << all;
+  EXPECT_NE(all.find("of material 'hair' uses texture coordinates 1"), std::string::npos) << all;
+  EXPECT_EQ(all.find("'eye'"), std::string::npos) << all;
+  for (const char* name : {"skin", "hair", "eye"}) EXPECT_EQ(named(read.mesh, name).line->width_texture, -1) << name;
+}
+
 TEST_F(MtoonLine, ValuesThatMakeNoSenseAreNoLine) {
   const std::string mtoon = R"("extensions":{"VRMC_materials_mtoon":{"outlineWidthMode":"worldCoordinates",)";
   const Mesh mesh = load(glb_of(R"({"name":"a",)" + mtoon + R"("outlineWidthFactor":-1}}},{"name":"b",)" + mtoon +

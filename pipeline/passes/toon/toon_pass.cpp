@@ -49,7 +49,15 @@ bool is_fine(const mesh::Mesh& mesh, bool moves) {
 ToonPass::ToonPass(DrawnObject& object, const mesh::Mesh& mesh, const ToonOptions& options)
     : object_(object), options_(options) {
   options_.light = glm::normalize(options.light);
-  for (const mesh::Texture& t : mesh.textures) textures_.emplace_back(t.width_px, t.height_px, t.rgba);
+  // Not those that only say how wide a line is.
+  textures_.resize(mesh.textures.size());
+  for (const mesh::Material& material : mesh.materials) {
+    if (material.texture < 0) continue;
+    const auto number = static_cast<std::size_t>(material.texture);
+    const mesh::Texture& texture = mesh.textures[number];
+    if (textures_[number].name() == 0)
+      textures_[number] = gl::Texture(texture.width_px, texture.height_px, texture.rgba);
+  }
   unsigned common = 0;
   if (options.bands > 0) common |= Lit;
   if (!mesh.colours.empty()) common |= VertexColours;
