@@ -189,8 +189,8 @@ void ObjectShape::ask_for_lines(const LineStyle& style) {
 mesh::ContourFinder* ObjectShape::finder_for(const View& view) {
   // What changes in colour stays as it is and the contour is exact, so this shows only where the object hides itself.
   // There a coarser surface hides the inner side of a line behind it, so far that over flat parts, where the error of a
-  // few places is several times the level's own, thin lines had gaps: with lines it may be a third as wrong.
-  const double most_px = asked_for_lines_ ? 0.35 : 1.0;
+  // few places is several times the level's own, thin lines had gaps: with lines it may be half as wrong.
+  const double most_px = asked_for_lines_ ? 0.5 : 1.0;
   if (look_.crosses_eye_plane) return nullptr;
   // The most that one of the mesh's units takes, along the axis that is stretched most.
   const double px_per_unit = view.camera.fx_px * largest_scale_ / look_.nearest_m;
@@ -202,6 +202,9 @@ mesh::ContourFinder* ObjectShape::finder_for(const View& view) {
 mesh::ContourFinder* ObjectShape::level_finder(std::size_t level) {
   // Where most is kept, a level only makes the feather reach further in.
   constexpr double most_left = 0.85;
+  // A level's triangles that are seen nearly edge on are drawn from both sides: where simplifying has turned one of them
+  // over, by this sine at most in what was tried, a pixel of the body would be missing.
+  constexpr mesh::ContourOptions from_both_sides{.margin = 0.1};
   MadeLevel& found = made_levels_[level];
   if (!found.made) {
     found.made = true;
@@ -209,7 +212,7 @@ mesh::ContourFinder* ObjectShape::level_finder(std::size_t level) {
     if (static_cast<double>(made.triangles.size()) > most_left * static_cast<double>(triangles_)) return nullptr;
     outlook_.triangles = std::move(made.triangles);
     outlook_.parts = std::move(made.parts);
-    found.finder.emplace(outlook_, mesh::topology(outlook_));
+    found.finder.emplace(outlook_, mesh::topology(outlook_), from_both_sides);
   }
   return found.finder ? &*found.finder : nullptr;
 }
