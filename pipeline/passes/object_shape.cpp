@@ -202,8 +202,8 @@ mesh::ContourFinder* ObjectShape::finder_for(const View& view) {
 mesh::ContourFinder* ObjectShape::level_finder(std::size_t level) {
   // Where most is kept, a level only makes the feather reach further in.
   constexpr double most_left = 0.85;
-  // A level's triangles that are seen nearly edge on are drawn from both sides: where simplifying has turned one of them
-  // over, by this sine at most in what was tried, a pixel of the body would be missing.
+  // A level's triangles that are seen nearly edge on are drawn from both sides: where simplifying has turned one of
+  // them over, by this sine at most in what was tried, a pixel of the body would be missing.
   constexpr mesh::ContourOptions from_both_sides{.margin = 0.1};
   MadeLevel& found = made_levels_[level];
   if (!found.made) {
