@@ -151,11 +151,21 @@ std::vector<fs::path> meshes_of(const std::vector<fs::path>& named) {
 int main(int argc, char** argv) {
   Wish wish;
   while (argc > 2 && std::strncmp(argv[1], "--", 2) == 0) {
-    if (std::strcmp(argv[1], "--view") == 0) wish.only = std::max(std::atoi(argv[2]), 0);
-    if (std::strcmp(argv[1], "--save") == 0) wish.save = argv[2];
+    if (std::strcmp(argv[1], "--view") == 0)
+      wish.only = std::max(std::atoi(argv[2]), 0);
+    else if (std::strcmp(argv[1], "--save") == 0)
+      wish.save = argv[2];
+    else
+      argc = 0;
     argc -= 2, argv += 2;
   }
   if (argc > 1) wish.views = std::max(std::atoi(argv[1]), 1);
+  if (argc < 1 || wish.only >= wish.views || (!wish.save.empty() && !fs::is_directory(wish.save))) {
+    std::fprintf(stderr,
+                 "usage: rinkaku-bench-closed-lines [--view I, below VIEWS] [--save FOLDER that exists] "
+                 "[VIEWS [MESH_OR_FOLDER...]]\n");
+    return 2;
+  }
   std::vector<fs::path> named(argv + std::min(argc, 2), argv + argc);
   if (named.empty()) named.emplace_back(fs::path(RINKAKU_TEST_DATA) / "meshes/closed");
   std::uint64_t gaps = 0;

@@ -62,19 +62,21 @@ void ContourFinder::move(std::span<const glm::uvec3> faces, std::span<const glm:
   moved_points_ = points;
 }
 
-// To where the face's points are. Precondition: it has area.
-void ContourFinder::move_plane(std::uint32_t f) {
-  const glm::vec3& corner = moved_points_[moved_faces_[f].x];
-  const glm::vec3 u = moved_points_[moved_faces_[f].y] - corner, v = moved_points_[moved_faces_[f].z] - corner;
-  const glm::vec3 normal = glm::normalize(glm::cross(u, v));
+// Until the next time.
+void ContourFinder::set_normal(std::uint32_t f, const glm::vec3& normal) {
+  lent_.push_back({f, {nx_[f], ny_[f], nz_[f]}});
   nx_[f] = normal.x;
   ny_[f] = normal.y;
   nz_[f] = normal.z;
 }
 
-// From neighbour to neighbour, some faces far; those further inside a squeezed part keep the normal they had.
+// From neighbour to neighbour, some faces far; those further inside a squeezed part have the normal they have at rest.
 void ContourFinder::borrow_normals() {
   constexpr int most_steps = 8;
+  for (; !lent_.empty(); lent_.pop_back()) {
+    const auto& [f, normal] = lent_.back();
+    nx_[f] = normal.x, ny_[f] = normal.y, nz_[f] = normal.z;
+  }
   for (const std::uint32_t f : flat_faces_) flat_[f] = 2;
   for (int step = 0; step < most_steps; ++step) {
     bool any = false;
@@ -82,10 +84,14 @@ void ContourFinder::borrow_normals() {
       if ((flat_[edge.face0] == 2) == (flat_[edge.face1] == 2)) continue;
       const std::uint32_t to = flat_[edge.face0] == 2 ? edge.face0 : edge.face1;
       const std::uint32_t from = flat_[edge.face0] == 2 ? edge.face1 : edge.face0;
-      if (flat_[from] == 0) move_plane(from);
-      nx_[to] = nx_[from];
-      ny_[to] = ny_[from];
-      nz_[to] = nz_[from];
+      if (flat_[from] == 0) {
+        const glm::vec3& corner = moved_points_[moved_faces_[from].x];
+        const glm::vec3 u = moved_points_[moved_faces_[from].y] - corner;
+        const glm::vec3 v = moved_points_[moved_faces_[from].z] - corner;
+        set_normal(to, glm::normalize(glm::cross(u, v)));
+      } else {
+        set_normal(to, {nx_[from], ny_[from], nz_[from]});
+      }
       flat_[to] = 1;
       any = true;
     }

@@ -85,7 +85,7 @@ class ContourFinder {
   void classify_all(const Eye& eye);
   void classify_doubtful(const Eye& eye, const KnownFaces& known);
   void classify(std::uint32_t face, const Eye& eye);
-  void move_plane(std::uint32_t face);
+  void set_normal(std::uint32_t face, const glm::vec3& normal);
   void borrow_normals();
   void list_front();
   void list_edges(const KnownFaces* known);
@@ -106,6 +106,11 @@ class ContourFinder {
   // Of what moves. Planes are those at rest, or, of faces without area, what they borrow.
   std::span<const glm::uvec3> moved_faces_;
   std::span<const glm::vec3> moved_points_;
+  struct RestNormal {
+    std::uint32_t face;
+    glm::vec3 normal;
+  };
+  std::vector<RestNormal> lent_;  // what borrowing has replaced
 
   // Scratch, sized once.
   std::vector<std::uint8_t> front_, seen_front_, flat_;

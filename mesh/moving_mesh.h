@@ -22,18 +22,16 @@ class MovingMesh {
   /// The same for the points alone; normals are to be asked of the skin.
   bool move_points_to(double video_time_s);
 
-  const Rig& rig() const { return *rig_; }
-  const Pose& pose() const { return *pose_; }
   const Skin& skin() const { return skin_; }
   Skin& skin() { return skin_; }
 
  private:
-  bool find_pose(double video_time_s);
+  /// Null if it is the last one.
+  const Pose* next_pose(double video_time_s);
 
   std::unique_ptr<const Rig> rig_;  // at one place, as the poser refers to it
   Playback playback_;
   Poser poser_;
-  const Pose* pose_;
   Skin skin_;
   std::optional<double> time_s_;  // of the animation
 };

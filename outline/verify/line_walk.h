@@ -33,8 +33,8 @@ struct WalkedLine {
 /// into a depth buffer, and in double precision each edge between a face that faces the eye and one that doesn't is
 /// gone along in steps of a pixel. A place counts if nothing as near as the contour lies around the pixel that is
 /// `across_px` outside it; across the line as far as there, at least half of some pixel must be ink. So lines over the
-/// mesh itself are walked as well as those around it. The last 2 pixels before a contour runs behind its own surface
-/// may be bare, also those of one that turns back at a cusp.
+/// mesh itself are walked as well as those around it. Within 2.5 pixels of where a contour, this or another that ends
+/// there in the picture, runs behind its own surface or turns back at a cusp, it may be bare.
 ///
 /// Preconditions: a closed, consistently wound mesh, all of it before the eye; the picture shows it white (1, 1, 1) and
 /// its line red (1, 0, 0), wider than `across_px` + 0.5, not tapered and without a lens. Cost: some 10 ms for 100,000

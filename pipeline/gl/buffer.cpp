@@ -62,6 +62,8 @@ std::span<std::byte> StreamBuffer::map(std::size_t size_bytes) {
   return {static_cast<std::byte*>(memory), size_bytes};
 }
 
+void StreamBuffer::lost() { throw runtime_failure("OpenGL", "the driver loses what is written for it"); }
+
 bool StreamBuffer::unmap() { return !std::exchange(mapped_, false) || glUnmapNamedBuffer(name()) == GL_TRUE; }
 
 }  // namespace rinkaku::gl

@@ -39,13 +39,15 @@ class StreamBuffer {
   StreamBuffer();
   /// Fills the next buffer and makes it the current one.
   void write(std::span<const std::byte> bytes);
-  /// The same with what `write(std::span<std::byte>)` puts there, right into the driver's memory: every byte, in a row,
-  /// and reading none.
+  /// The same with what `write(std::span<std::byte>)` puts there, right into the driver's memory: every byte, and
+  /// reading none. Throws Error (Failure) if the driver loses it again and again.
   template <typename Write>
   void fill(std::size_t size_bytes, const Write& write) {
-    do {
+    for (int tries = 0; tries < 3; ++tries) {
       write(map(size_bytes));
-    } while (!unmap());
+      if (unmap()) return;
+    }
+    lost();
   }
   /// The current buffer; another one after each write().
   GLuint name() const { return ring_[current_].handle.name(); }
@@ -59,6 +61,7 @@ class StreamBuffer {
   std::span<std::byte> map(std::size_t size_bytes);
   /// False if the driver lost what was written.
   bool unmap();
+  [[noreturn]] static void lost();
 
   std::array<Slot, 3> ring_;
   std::size_t current_ = 0;

@@ -17,6 +17,14 @@ PixelRect grown(const PixelRect& rect, int by_px) {
 // Clamped, what lies before the near plane isn't cut off but hides everything.
 void clamp_depth(bool on) { (on ? glEnable : glDisable)(GL_DEPTH_CLAMP); }
 
+// Surfaces that pass through a cut are drawn from a little before it, so that the nearer slice's part hides the seam:
+// along an edge that both leave, pixels that a lens covers in part would let shine through what lies behind. With a
+// lens it is 1.5 pixels of a floor that lies a quarter of the focal length under the horizon; without, what GL rounds.
+double before_cut_m(double cut_m, const CameraModel& camera) {
+  constexpr double lens_px = 6, rounding_px = 0.1, most = 0.1;
+  return cut_m * (1 - std::min((camera.has_distortion() ? lens_px : rounding_px) / camera.fx_px, most));
+}
+
 // Premultiplied, over what is there; without colour of its own it only covers that.
 void blend_over(bool coloured) { glBlendFunc(coloured ? GL_ONE : GL_ZERO, GL_ONE_MINUS_SRC_ALPHA); }
 
@@ -93,11 +101,15 @@ void LayerRenderer::draw_surfaces(const View& view, const PixelRect& rect, const
   blend_over(ink == Ink::All);
 }
 
-void LayerRenderer::draw_edges(const View& view, const PixelRect& rect, const Slice& slice, Ink ink) {
+void LayerRenderer::draw_edges(const View& whole_view, const PixelRect& rect, const Slice& slice, Ink ink) {
   glDepthMask(GL_FALSE);
+  // What isn't opaque begins at the cut itself, as it would be seen twice; the depths are those of the surfaces.
+  View beyond = whole_view;
+  beyond.nearest_m = slice.cut_m;
   for (auto v = visible_.rbegin(); v != visible_.rend(); ++v) {
     if (!slice.holds(*v)) continue;
-    const DrawCall call = call_for(view, *v->styled, rect, ink);
+    const DrawCall call = call_for(v->leaves_colour ? beyond : whole_view, *v->styled, rect, ink);
+    glDepthRange(0, v->leaves_colour ? slice.near_m / slice.cut_m : 1);
     clamp_depth(!v->leaves_colour);
     // The last pass (a line) lies behind the first (the body).
     for (auto pass = v->styled->passes.rbegin(); pass != v->styled->passes.rend(); ++pass) {
@@ -106,6 +118,7 @@ void LayerRenderer::draw_edges(const View& view, const PixelRect& rect, const Sl
     }
   }
   clamp_depth(false);
+  glDepthRange(0, 1);
   blend_over(ink == Ink::All);
 }
 
@@ -121,11 +134,6 @@ void LayerRenderer::read_depth(const Slice& slice, const PixelRect& rect, DepthL
   const auto near = static_cast<float>(slice.near_m), cleared = static_cast<float>(slice.near_m / slice.far_m);
   for (float& value : depth.depth_m) value = value > cleared ? near / value : 0;
 }
-
-// What passes through a cut is drawn from a little before it, so that the nearer slice's part hides the seam: along an
-// edge that both leave, pixels that a lens covers in part would let shine through what lies behind. It is 1.5 pixels of
-// a floor seen as little as a thirteenth of the focal length under the horizon.
-double before_cut_m(double cut_m, const CameraModel& camera) { return cut_m * (1 - std::min(20 / camera.fx_px, 0.1)); }
 
 bool LayerRenderer::draw(const View& view, std::span<const double> cuts_m, std::span<Layer> layers,
                          std::span<LayerParts> parts) {

@@ -57,7 +57,7 @@ class LayerRenderer {
   };
   struct Slice {
     double cut_m;   // where it begins
-    double near_m;  // from where on what reaches beyond that is drawn
+    double near_m;  // from where on surfaces that reach beyond it are drawn
     double far_m;
     // What only takes away also does so in all slices behind it.
     bool holds(const Visible& v) const {
@@ -72,7 +72,7 @@ class LayerRenderer {
   void draw_all(const View& view, const Slice& slice, Ink ink, Layer& layer);
   void begin(const PixelRect& rect, const Slice& slice);
   void draw_surfaces(const View& view, const PixelRect& rect, const Slice& slice, Ink ink);
-  void draw_edges(const View& view, const PixelRect& rect, const Slice& slice, Ink ink);
+  void draw_edges(const View& whole_view, const PixelRect& rect, const Slice& slice, Ink ink);
   void read(Layer& layer);
   void read_depth(const Slice& slice, const PixelRect& rect, DepthLayer& depth);
   DrawCall call_for(const View& view, const StyledObject& styled, const PixelRect& rect, Ink ink) const;

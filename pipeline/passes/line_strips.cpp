@@ -187,7 +187,8 @@ void LineStrips::note_hidden(std::span<const ContourStrips::Piece> pieces, std::
   }
 }
 
-// Where a contour is hidden for less than a pixel, two lines' ends meet, each pushed its own way: what closes them.
+// Where one edge of a contour, of less than a pixel, is hidden, two lines' ends meet, each pushed its own way: what
+// closes them.
 void LineStrips::bridge_hidden(std::span<const ContourStrips::Piece> pieces) {
   constexpr float longest_px = 1;
   for (const ContourStrips::Piece& piece : pieces) {

@@ -202,9 +202,12 @@ mesh::ContourFinder* ObjectShape::finder_for(const View& view) {
 mesh::ContourFinder* ObjectShape::level_finder(std::size_t level) {
   // Where most is kept, a level only makes the feather reach further in.
   constexpr double most_left = 0.85;
-  // A level's triangles that are seen nearly edge on are drawn from both sides: where simplifying has turned one of
-  // them over, by this sine at most in what was tried, a pixel of the body would be missing.
-  constexpr mesh::ContourOptions from_both_sides{.margin = 0.1};
+  // What is opaque is drawn from both sides where it is seen nearly edge on: where simplifying has turned a triangle
+  // over, a pixel of the body would be missing. What is behind hides it again, unless it can be seen through.
+  const bool opaque =
+      std::none_of(outlook_.materials.begin(), outlook_.materials.end(),
+                   [](const mesh::Material& material) { return material.alpha == mesh::Material::Alpha::Blend; });
+  const mesh::ContourOptions sides = opaque ? mesh::ContourOptions{.margin = 0.1} : mesh::ContourOptions{};
   MadeLevel& found = made_levels_[level];
   if (!found.made) {
     found.made = true;
@@ -212,7 +215,7 @@ mesh::ContourFinder* ObjectShape::level_finder(std::size_t level) {
     if (static_cast<double>(made.triangles.size()) > most_left * static_cast<double>(triangles_)) return nullptr;
     outlook_.triangles = std::move(made.triangles);
     outlook_.parts = std::move(made.parts);
-    found.finder.emplace(outlook_, mesh::topology(outlook_), from_both_sides);
+    found.finder.emplace(outlook_, mesh::topology(outlook_), sides);
   }
   return found.finder ? &*found.finder : nullptr;
 }

@@ -29,8 +29,9 @@ namespace rinkaku::passes {
 /// runs. No GL.
 ///
 /// The contour is always the whole mesh's. The surface inside it comes from the coarsest level of detail that lies
-/// within a pixel of the whole mesh at the object's nearest point, so its cost follows its size in the picture. Only
-/// what moves is always drawn whole: a level of its rest pose may be wrong in others, and light moves over it.
+/// within a pixel (under lines half of one) of the whole mesh at the object's nearest point, so its cost follows its
+/// size in the picture. Only what moves is always drawn whole: a level of its rest pose may be wrong in others, and
+/// light moves over it.
 class ObjectShape {
  public:
   /// `world_from_object` may scale (also unevenly) and mirror. `uneven` says per triangle whether its colour changes
@@ -61,7 +62,7 @@ class ObjectShape {
   const MovingShape* moving() const { return moving_ ? &*moving_ : nullptr; }
   bool moves() const { return moving_.has_value(); }
   /// How often it has moved so far: what was made of its vertices is of that count.
-  std::uint64_t moves_made() const { return moving_->moves_made(); }
+  std::uint64_t moves_made() const { return moving_ ? moving_->moves_made() : 0; }
   /// Where its welded points are now, in the object's coordinates. Precondition: it moves.
   std::span<const glm::vec3> moved_points() const { return moving_->points(); }
   /// And their outline normals, unit, likewise; of the same ones as vertices().

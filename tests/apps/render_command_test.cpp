@@ -60,6 +60,20 @@ TEST(RenderCommand, JsonTellsWhatWasMadeOfOpenGl) {
   EXPECT_GE(drawn.at("buffers"), 2);   // vertices and indices
 }
 
+TEST(RenderCommand, SkinningOnTheGpuIsAShaderMore) {
+  RINKAKU_NEEDS_DATA();
+  const RenderFolder folder;
+  const auto programs = [&folder](const std::string& skinning) {
+    folder.write("fox.toml", test::plate + test::locked + "[[object]]\nmesh = \"" +
+                                 test::data("meshes/animated/Fox.glb").string() +
+                                 "\"\nheight_m = 1\nanimation = { skinning = \"" + skinning + "\" }\n");
+    const auto got = test::run_rinkaku(folder, "render fox.toml -o fox.mkv --codec ffv1 --force --json");
+    EXPECT_EQ(got.status, 0) << got.err;
+    return test::json_of(got.out).at("opengl").at("programs").get<int>();
+  };
+  EXPECT_EQ(programs("gpu"), programs("cpu") + 1);
+}
+
 TEST(RenderCommand, TimingsTellTheSameInAFile) {
   const RenderFolder folder;
   const test::CliResult got =

@@ -59,7 +59,8 @@ TEST(MovingContour, ComesBackFromHavingNoArea) {
   const Rigged ball = test::on_one_node(test::sphere(3));
   const Topology rest = topology(ball.mesh);
   ContourFinder finder(ball.mesh, rest), fresh(ball.mesh, rest);
-  finder.move(rest.faces, std::vector<glm::vec3>(rest.points.size(), glm::vec3(0)), Box{{0, 0, 0}, {0, 0, 0}});
+  const std::vector<glm::vec3> at_one_place(rest.points.size(), glm::vec3(0));
+  finder.move(rest.faces, at_one_place, Box{{0, 0, 0}, {0, 0, 0}});
   finder.find(glm::dvec3(0, 0, 5));
   finder.move(rest.faces, rest.points, bounding_box(rest.points));
   const Contour &a = finder.find(glm::dvec3(1, 2, 5)), &b = fresh.find(glm::dvec3(1, 2, 5));

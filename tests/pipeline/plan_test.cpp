@@ -64,19 +64,19 @@ TEST(Plan, EmptySceneOnlyPassesThePlateOn) {
 
 TEST(Plan, OnlyAnimatedObjectsArePosed) {
   Scene scene = drawn_scene();
-  EXPECT_EQ(stage(plan_of(scene), "animate").why, "no object is animated");
+  const auto why = [&scene] { return stage(plan_of(scene), "animate").why; };
+  EXPECT_EQ(why(), "no object is animated");
   EXPECT_FALSE(plan_of(scene).runs("animate"));
   scene.objects.back().animation.emplace();
   EXPECT_TRUE(plan_of(scene).runs("animate"));
   scene.objects.back().name = "fox";
-  const std::string played =
-      "1 object played in time with the video, contours found on the CPU; fox: vertices are made ";
-  EXPECT_EQ(stage(plan_of(scene), "animate").why,
-            played + "on the GPU, or on the CPU where OpenGL itself runs there and would be slower");
+  EXPECT_EQ(why(),
+            "1 object played in time with the video, contours found on the CPU; fox: vertices are made on the GPU, "
+            "or on the CPU where OpenGL itself runs there and would be slower");
   scene.objects.back().animation->skinning = Skinning::Gpu;
-  EXPECT_EQ(stage(plan_of(scene), "animate").why, played + "by a compute shader, as the scene says");
+  EXPECT_TRUE(why().ends_with("fox: vertices are made by a compute shader, as the scene says")) << why();
   scene.objects.back().animation->skinning = Skinning::Cpu;
-  EXPECT_EQ(stage(plan_of(scene), "animate").why, played + "on the CPU, as the scene says");
+  EXPECT_TRUE(why().ends_with("fox: vertices are made on the CPU, as the scene says")) << why();
 }
 
 TEST(Plan, TrackWithoutObjectsIsReadByNothing) {

@@ -119,6 +119,9 @@ INSTANTIATE_TEST_SUITE_P(
         BadScene{"ClipBelowZero", object + "animation = { clip = -1 }\n",
                  "DIR/scene.toml:8:22: 'clip' in animation of [[object]] must be a whole number from 0 to 1000000, "
                  "found -1"},
+        BadScene{"SkinningElsewhere", object + "animation = { skinning = \"moon\" }\n",
+                 "DIR/scene.toml:8:26: 'skinning' in animation of [[object]] must be \"auto\", \"cpu\" or \"gpu\", "
+                 "found the text \"moon\""},
         BadScene{"AnimationText", object + "animation = \"Walk\"\n",
                  "DIR/scene.toml:8:13: 'animation' in [[object]] must be true, false or a table { ... }, found the "
                  "text \"Walk\""},

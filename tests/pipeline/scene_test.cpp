@@ -271,6 +271,13 @@ TEST(Scene, PlaysAnimations) {
   EXPECT_EQ(named.start_s, 1.5);
   EXPECT_EQ(named.speed, -0.5);
   EXPECT_EQ(folder.read(object + "animation = { clip = 2 }\n").objects[0].animation->clip_index, 2);
+  EXPECT_EQ(first.skinning, Skinning::Auto);
+  const auto skinning = [&](const std::string& where) {
+    return folder.read(object + "animation = { skinning = \"" + where + "\" }\n").objects[0].animation->skinning;
+  };
+  EXPECT_EQ(skinning("gpu"), Skinning::Gpu);
+  EXPECT_EQ(skinning("cpu"), Skinning::Cpu);
+  EXPECT_EQ(skinning("auto"), Skinning::Auto);
   EXPECT_TRUE(folder.read(object + "holdout = true\nanimation = true\n").objects[0].animation);
   EXPECT_TRUE(folder.read(object + "animation = true\nfluffy = { cut = \"gpu\" }\n").objects[0].fluffy);
 }

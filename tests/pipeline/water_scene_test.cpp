@@ -88,7 +88,10 @@ INSTANTIATE_TEST_SUITE_P(
             "DIR/scene.toml:9:1: 'arrow' in surface of [water] has 2 for frame 5 but 1 for frame 0; give every key "
             "frame as many arrows, in the same order"},
         BadWater{"ManyStrokes", water + "strokes = 2000000\n[[water.surface]]\n",
-                 "DIR/scene.toml:7:11: 'strokes' in [water] must be a whole number from 1 to 1000000, found 2000000"}),
+                 "DIR/scene.toml:7:11: 'strokes' in [water] must be a whole number from 1 to 1000000, found 2000000"},
+        BadWater{
+            "KeysFarApart", water + "colours = { key_frames = 121 }\n[[water.surface]]\n",
+            "DIR/scene.toml:7:26: 'key_frames' in colours of [water] must be a whole number from 1 to 120, found 121"}),
     [](const testing::TestParamInfo<BadWater>& bad) { return bad.param.name; });
 
 }  // namespace
