@@ -5,10 +5,7 @@
 namespace rinkaku::mesh {
 
 MovingMesh::MovingMesh(const Mesh& mesh, const Topology& topology, Rig rig, const Playback& playback)
-    : rig_(std::make_unique<Rig>(std::move(rig))),
-      playback_(playback),
-      poser_(*rig_),
-      skin_(mesh, topology, *rig_) {}
+    : rig_(std::make_unique<Rig>(std::move(rig))), playback_(playback), poser_(*rig_), skin_(mesh, topology, *rig_) {}
 
 const Pose* MovingMesh::next_pose(double video_time_s) {
   const Animation& animation = rig_->animations[playback_.animation];
