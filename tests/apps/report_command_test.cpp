@@ -151,8 +151,10 @@ TEST_F(ReportCommand, InterruptedLeavesNothing) {
   const test::CliResult got =
       test::run_shell(folder_.path(),
                       "\"$RINKAKU\" report -o out --sections curvature & "
-                      // Until it listens: a shell starts what runs beside it with SIGINT ignored.
-                      "until grep -qE '^SigCgt:.*[2367abef]$' /proc/$!/status; do sleep 0.05; done; "
+                      // Until it is no shell any more and listens: a shell starts what runs beside it with SIGINT
+                      // ignored.
+                      "until grep -q rinkaku /proc/$!/comm && grep -qE '^SigCgt:.*[2367abef]$' /proc/$!/status; "
+                      "do sleep 0.05; done; "
                       "kill -INT $!; wait $!");
   EXPECT_EQ(got.status, 1) << got.err;
   EXPECT_TRUE(contains(got.err, "interrupted")) << got.err;
