@@ -1,7 +1,9 @@
 #pragma once
 
-#include <glm/vec3.hpp>
+#include <optional>
 
+#include "outline/pass/line_look.h"
+#include "outline/pass/line_room.h"
 #include "pipeline/gl/program.h"
 #include "pipeline/passes/line_strips.h"
 #include "pipeline/passes/pass.h"
@@ -9,10 +11,8 @@
 namespace rinkaku::outline {
 
 struct HullOptions {
-  float width_px = 3;                     ///< at any distance, in the plate; not read if width_m is given
-  float width_m = 0;                      ///< above 0: the line is as wide as something of this size at its depth
-  float least_px = 0, most_px = 40;       ///< between which width_m stays
-  glm::vec3 colour{0.07f, 0.05f, 0.09f};  ///< sRGB-encoded
+  LineLook look{};
+  float lean = 3;  ///< how steeply the line leans back over what lies close behind (LineRoom); 0: not at all
   passes::LineStyle style{};              ///< read at construction only; its base line is that of these options
 };
 
@@ -24,8 +24,7 @@ struct HullOptions {
 /// those are drawn, so the cost is the contour's, not the mesh's. They are in the depth buffer: a line hides what is
 /// behind it, and what is before it hides the line. Neighbouring strips share their ends, so a line has no gaps, also
 /// at hard edges, where they end in a miter (passes::LineStrips). Where a line is thinner than a pixel it is fainter
-/// instead. What factors above 1 add leans back by three times its width: around the object the line has its whole
-/// width, but over a surface close behind, as around a mouth on a face, it adds no more than a third of that step.
+/// instead, and over what lies close behind it is narrower (LineRoom).
 class HullPass : public passes::ObjectPass {
  public:
   /// `object` must outlive the pass.
@@ -35,18 +34,18 @@ class HullPass : public passes::ObjectPass {
   bool draws_lines() const override { return true; }
   double reach_px(const passes::View& view) const override;
   void draw_surface(const passes::DrawCall&) override {}
+  void look_behind(const passes::DrawCall& call) override;
   void draw_edges(const passes::DrawCall& call) override;
 
  private:
   passes::DrawnObject& object_;
-  HullOptions options_;
+  LineLook look_;
+  std::optional<LineRoom> room_;
   gl::Program program_;
+  LineWidthUniforms width_;
   GLint clip_from_object_ = -1;
   GLint viewport_px_ = -1;
-  GLint width_px_ = -1;
   GLint soft_ = -1;
-  GLint beyond_ = -1;
-  GLint back_ = -1;
 };
 
 }  // namespace rinkaku::outline

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "mesh/mesh.h"
-#include "outline/styles/line_look.h"
+#include "outline/pass/line_look.h"
 #include "pipeline/gl/buffer.h"
 #include "pipeline/gl/program.h"
 #include "pipeline/passes/pass.h"

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "outline/styles/line_look.h"
+#include "outline/pass/line_look.h"
 #include "outline/styles/surface_buffer.h"
 #include "pipeline/gl/program.h"
 #include "pipeline/gl/texture_target.h"

@@ -15,7 +15,7 @@
 #include "outline/strokes/stroke_memory.h"
 #include "outline/strokes/stroke_mesh.h"
 #include "outline/strokes/stroke_path.h"
-#include "outline/styles/line_look.h"
+#include "outline/pass/line_look.h"
 #include "outline/styles/surface_buffer.h"
 #include "pipeline/gl/buffer.h"
 #include "pipeline/gl/texture.h"

@@ -17,6 +17,24 @@ RenderbufferHandle storage(GLenum format, int width_px, int height_px) {
   return handle;
 }
 
+TextureHandle depth_storage(int width_px, int height_px) {
+  GLuint name = 0;
+  glCreateTextures(GL_TEXTURE_2D, 1, &name);
+  TextureHandle handle(name);
+  glTextureStorage2D(name, 1, GL_DEPTH_COMPONENT32F, width_px, height_px);
+  glTextureParameteri(name, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+  glTextureParameteri(name, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+  return handle;
+}
+
+// The longest side that the driver draws.
+GLint longest_side() {
+  GLint buffer = 0, texture = 0;
+  glGetIntegerv(GL_MAX_RENDERBUFFER_SIZE, &buffer);
+  glGetIntegerv(GL_MAX_TEXTURE_SIZE, &texture);
+  return std::min(buffer, texture);
+}
+
 // Sizes are rounded up so that an object that comes nearer does not ask for new storage every frame.
 int rounded(int px) { return (px + 127) / 128 * 128; }
 
@@ -26,8 +44,7 @@ Target::Target(Kind kind) : kind_(kind), framebuffer_(make_framebuffer()) { ++co
 
 void Target::begin(int width_px, int height_px, double depth) {
   if (width_px > width_px_ || height_px > height_px_) {
-    GLint most = 0;
-    glGetIntegerv(GL_MAX_RENDERBUFFER_SIZE, &most);
+    const GLint most = longest_side();
     if (width_px > most || height_px > most) {
       throw runtime_failure("OpenGL", "a picture of " + std::to_string(width_px) + "x" + std::to_string(height_px) +
                                           " pixels is larger than this driver draws");
@@ -37,8 +54,8 @@ void Target::begin(int width_px, int height_px, double depth) {
     colour_ = storage(kind_ == Kind::Picture ? GL_RGBA8 : GL_R8, width_px_, height_px_);
     glNamedFramebufferRenderbuffer(framebuffer_.name(), GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, colour_.name());
     if (kind_ == Kind::Picture) {
-      depth_ = storage(GL_DEPTH_COMPONENT32F, width_px_, height_px_);
-      glNamedFramebufferRenderbuffer(framebuffer_.name(), GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, depth_.name());
+      depth_ = depth_storage(width_px_, height_px_);
+      glNamedFramebufferTexture(framebuffer_.name(), GL_DEPTH_ATTACHMENT, depth_.name(), 0);
     }
     if (glCheckNamedFramebufferStatus(framebuffer_.name(), GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE) {
       throw runtime_failure("OpenGL", kind_ == Kind::Picture

@@ -25,12 +25,14 @@ class Target {
   void read(int width_px, int height_px, std::uint8_t* pixels) const;
   /// The same for depth, of a Picture: one float a pixel, as the depth function saw it.
   void read_depth(int width_px, int height_px, float* depth) const;
+  /// The texture that depth is in, of a Picture: as large as the viewport or larger, at the same origin.
+  GLuint depth_texture() const { return depth_.name(); }
 
  private:
   Kind kind_;
   FramebufferHandle framebuffer_;
   RenderbufferHandle colour_;
-  RenderbufferHandle depth_;
+  TextureHandle depth_;
   int width_px_ = 0;
   int height_px_ = 0;
 };

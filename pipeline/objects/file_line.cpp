@@ -73,7 +73,7 @@ void take_width(OutlineScene& outline, const mesh::Mesh& mesh, Unit unit, double
   } else {
     outline.width_px = std::min(static_cast<double>(widest) * track::read_camera(camera).height_px, most_line_px);
   }
-  if (!can_weigh(outline.method)) return;
+  if (!pushes_contour(outline.method)) return;
   if (!mesh.uvs.empty()) {
     for (const mesh::Material& material : mesh.materials) {
       if (has_line(material) && material.line->width_texture >= 0) outline.weight.file_maps = true;

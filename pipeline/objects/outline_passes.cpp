@@ -51,11 +51,8 @@ double radius_m(const passes::DrawnObject& object, const mesh::Mesh& mesh) {
 std::unique_ptr<passes::ObjectPass> hull(passes::DrawnObject& object, const OutlineScene& line,
                                          const passes::LineStyle& style) {
   outline::HullOptions options;
-  options.width_px = static_cast<float>(line.width_px);
-  options.width_m = static_cast<float>(line.width_m.value_or(0));
-  options.least_px = static_cast<float>(line.min_px);
-  options.most_px = static_cast<float>(line.max_px);
-  options.colour = colour(line.colour);
+  options.look = look_of(line);
+  options.lean = static_cast<float>(line.lean);
   options.style = style;
   return std::make_unique<outline::HullPass>(object, options);
 }

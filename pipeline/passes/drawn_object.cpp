@@ -134,11 +134,20 @@ void DrawnObject::ask_for_lines(const LineStyle& style) {
   const GLuint name = line_array_.name();
   gl::set_attribute(name, 0, {3, GL_FLOAT, GL_FALSE, offsetof(LineVertex, position)});
   gl::set_attribute(name, 1, {4, GL_SHORT, GL_TRUE, offsetof(LineVertex, line)});
+  gl::set_attribute(name, 2, {1, GL_FLOAT, GL_FALSE, 0, 1});
 }
 
-GLsizei DrawnObject::bind_lines() {
+GLsizei DrawnObject::bind_lines(GLuint besides) {
   const auto count = static_cast<GLsizei>(shape_.last_look().line_indices.size());
-  if (count > 0) glBindVertexArray(line_array_.name());
+  if (count == 0) return 0;
+  const GLuint name = line_array_.name();
+  if (besides != 0) {
+    glEnableVertexArrayAttrib(name, 2);
+    glVertexArrayVertexBuffer(name, 1, besides, 0, sizeof(float));
+  } else {
+    glDisableVertexArrayAttrib(name, 2);
+  }
+  glBindVertexArray(name);
   return count;
 }
 

@@ -33,8 +33,11 @@ class DrawnObject {
   void ask_for_vertices() { shape_.ask_for_vertices(); }
   /// Has looks find lines from now on (see ObjectShape::ask_for_lines).
   void ask_for_lines(const LineStyle& style);
-  /// Binds the contour's lines; one draw of as many indices as is returned.
-  GLsizei bind_lines();
+  /// Binds the contour's lines; one draw of as many indices as is returned. Attribute 2 is each vertex's float of
+  /// the buffer `besides`; with 0, the context's current value.
+  GLsizei bind_lines(GLuint besides = 0);
+  /// The uploaded line vertices.
+  GLuint line_buffer() const { return line_buffer_.name(); }
   /// Binds the quads along borders between materials (see BorderStrips).
   std::span<const Run> bind_borders();
   /// Binds the quads along intersections (see IntersectionStrips).

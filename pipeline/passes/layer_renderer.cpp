@@ -101,6 +101,15 @@ void LayerRenderer::draw_surfaces(const View& view, const PixelRect& rect, const
   blend_over(ink == Ink::All);
 }
 
+void LayerRenderer::look_behind(const View& view, const PixelRect& rect, const Slice& slice, Ink ink) {
+  for (const Visible& v : visible_) {
+    if (!slice.holds(v)) continue;
+    DrawCall call = call_for(view, *v.styled, rect, ink);
+    call.depths = target_.depth_texture();
+    for (auto& pass : v.styled->passes) pass->look_behind(call);
+  }
+}
+
 void LayerRenderer::draw_edges(const View& whole_view, const PixelRect& rect, const Slice& slice, Ink ink) {
   glDepthMask(GL_FALSE);
   // What isn't opaque begins at the cut itself, as it would be seen twice; the depths are those of the surfaces.
@@ -171,6 +180,7 @@ void LayerRenderer::draw_all(const View& view, const Slice& slice, Ink ink, Laye
   begin(layer.rect, slice);
   draw_surfaces(view, layer.rect, slice, ink);
   for (auto& pass : scene_passes_) pass->draw(view, layer.rect);
+  look_behind(view, layer.rect, slice, ink);
   draw_edges(view, layer.rect, slice, ink);
   for (auto& pass : scene_passes_) pass->draw_over(view, layer.rect);
   read(layer);
@@ -183,6 +193,7 @@ bool LayerRenderer::draw_objects(const View& view, const PixelRect& picture, Lay
   if (layer.rect.empty()) return false;
   begin(layer.rect, all);
   draw_surfaces(view, layer.rect, all, Ink::All);
+  look_behind(view, layer.rect, all, Ink::All);
   draw_edges(view, layer.rect, all, Ink::All);
   read(layer);
   return true;

@@ -72,6 +72,7 @@ class LayerRenderer {
   void draw_all(const View& view, const Slice& slice, Ink ink, Layer& layer);
   void begin(const PixelRect& rect, const Slice& slice);
   void draw_surfaces(const View& view, const PixelRect& rect, const Slice& slice, Ink ink);
+  void look_behind(const View& view, const PixelRect& rect, const Slice& slice, Ink ink);
   void draw_edges(const View& whole_view, const PixelRect& rect, const Slice& slice, Ink ink);
   void read(Layer& layer);
   void read_depth(const Slice& slice, const PixelRect& rect, DepthLayer& depth);

@@ -58,6 +58,7 @@ LineStrips::LineStrips(const mesh::Mesh& mesh, const mesh::Topology& topology, b
 
 void LineStrips::style(const LineStyle& style) {
   taper_px_ = style.taper_px;
+  longest_px_ = style.longest_px;
   factors_.assign(style.factors.begin(), style.factors.end());
   factors_.resize(hard_.size(), 1.0f);
   largest_factor_ = factors_.empty() ? 1.0f : *std::max_element(factors_.begin(), factors_.end());
@@ -236,15 +237,24 @@ void LineStrips::taper_ends() {
   }
 }
 
-// A quad; where a smooth line bends much from end to end, several, so that its rim is round.
+// Into how many pieces of the screen's way from end to end a line is cut, so that none is longer than longest_px_.
+int LineStrips::pieces_of(const Place& from, const Place& to) const {
+  constexpr int most = 64;
+  if (longest_px_ <= 0 || !(from.seen.z > 0) || !(to.seen.z > 0)) return 1;
+  const float length_px = glm::distance(glm::vec2(from.seen) / from.seen.z, glm::vec2(to.seen) / to.seen.z);
+  return static_cast<int>(std::clamp(std::ceil(length_px / longest_px_), 1.0f, static_cast<float>(most)));
+}
+
+// A quad; several where a smooth line bends much from end to end, so that its rim is round, and where it is long.
 void LineStrips::emit(const Line& line) {
   const Place &from = places_[line.from], &to = places_[line.to];
   const glm::vec2 &first = from.push[line.from_end], &last = to.push[line.to_end];
   float turn = 0;
   if (from.soft && to.soft) turn = std::atan2(first.x * last.y - first.y * last.x, glm::dot(first, last));
   constexpr float flat = 0.14f;  // 8 degrees: the rim of a line 15 px wide is off by a twentieth of a pixel
-  const int count = std::clamp(static_cast<int>(std::ceil(std::abs(turn) / flat)), 1, 8);
-  const float growth = count > 1 ? glm::length(last) / glm::length(first) : 1.0f;
+  const int bends = std::clamp(static_cast<int>(std::ceil(std::abs(turn) / flat)), 1, 8);
+  const int count = std::max(bends, pieces_of(from, to));
+  const float growth = bends > 1 ? glm::length(last) / glm::length(first) : 1.0f;
   std::uint32_t before = add(from, first, false);
   add(from, first, true);
   for (int i = 1; i <= count; ++i) {
@@ -254,9 +264,12 @@ void LineStrips::emit(const Line& line) {
       add(to, last, true);
     } else {
       const float t = static_cast<float>(i) / static_cast<float>(count);
-      const float length = glm::mix(1.0f, growth, t);
-      const float cosine = length * std::cos(turn * t), sine = length * std::sin(turn * t);
-      const glm::vec2 push(cosine * first.x - sine * first.y, sine * first.x + cosine * first.y);
+      glm::vec2 push = glm::mix(first, last, t);
+      if (bends > 1) {
+        const float length = glm::mix(1.0f, growth, t);
+        const float cosine = length * std::cos(turn * t), sine = length * std::sin(turn * t);
+        push = glm::vec2(cosine * first.x - sine * first.y, sine * first.x + cosine * first.y);
+      }
       here = add_between(from, to, t, push, false);
       add_between(from, to, t, push, true);
     }
@@ -265,9 +278,11 @@ void LineStrips::emit(const Line& line) {
   }
 }
 
+// `t` counts along the screen's way.
 std::uint32_t LineStrips::add_between(const Place& from, const Place& to, float t, const glm::vec2& push, bool rim) {
   Place place = from;
-  place.position = glm::mix(from.position, to.position, t);
+  const float there = t * from.seen.z, deep = there + (1 - t) * to.seen.z;
+  place.position = glm::mix(from.position, to.position, from.seen.z > 0 && to.seen.z > 0 ? there / deep : t);
   place.factor = glm::mix(from.factor * from.taper, to.factor * to.taper, t);
   place.taper = 1;
   return add(place, push, rim);

@@ -49,6 +49,7 @@ struct LineStyle {
   float width_px = 0, width_m = 0, least_px = 0, most_px = 0;
   float taper_px = 0;  ///< where a line ends on a surface, it gets thinner over this length, or less if it soon goes
                        ///< on; 0: not at all
+  float longest_px = 0;  ///< longer edges are cut into pieces, for what is found at each vertex; 0: not at all
 };
 
 /// Turns a contour into lines of right width: along each edge a quad, and at corners what closes them. No GL.
@@ -119,6 +120,7 @@ class LineStrips {
   void bridge_hidden(std::span<const ContourStrips::Piece> pieces);
   float hidden_px(std::uint32_t from) const;
   void taper_ends();
+  int pieces_of(const Place& from, const Place& to) const;
   void emit(const Line& line);
   std::uint32_t add_between(const Place& from, const Place& to, float t, const glm::vec2& push, bool rim);
   std::uint32_t add(const Place& place, const glm::vec2& push, bool rim);
@@ -130,7 +132,7 @@ class LineStrips {
   std::vector<float> most_added_m_;  // per point, or empty
   float width_px_ = 0, width_m_ = 0, least_px_ = 0, most_px_ = 0;
   std::vector<std::uint32_t> place_of_;  // per point, of this frame's; valid where places_ agrees
-  float taper_px_ = 0;
+  float taper_px_ = 0, longest_px_ = 0;
   float largest_factor_ = 1;
   LineStyle::Follow follow_;
   std::vector<std::uint32_t> wanted_;

@@ -101,10 +101,22 @@ bool follows_edges(LineMethod method) {
          method == M::HiddenLines || method == M::Isophote || method == M::Wobble || method == M::Strokes;
 }
 
+bool pushes_contour(LineMethod method) {
+  return method == M::Uniform || method == M::Curvature || method == M::Control || method == M::ZLines ||
+         method == M::HiddenLines;
+}
+
+void require_pushed_contour(const toml::Table& outline, std::string_view key, LineMethod method) {
+  if (!outline.has(key) || pushes_contour(method)) return;
+  throw outline.error_at(
+      key, "goes with method = \"uniform\", \"curvature\", \"control\", \"z_lines\" or \"hidden_lines\"",
+      "choose one of these, or leave it out");
+}
+
 bool brings_inner_lines(LineMethod method) { return method == M::ZLines || method == M::HiddenLines; }
 
 double usual_taper_px(LineMethod method) {
-  if (method == M::Wobble) return 6;
+  if (method == M::Uniform || method == M::Wobble) return 6;
   return method == M::Curvature || method == M::Control || method == M::Isophote || method == M::Strokes ? 15 : 0;
 }
 

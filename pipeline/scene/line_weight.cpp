@@ -25,12 +25,6 @@ std::vector<LineWeightScene::OfMaterial> read_materials(const toml::Table& weigh
 
 }  // namespace
 
-bool can_weigh(LineMethod method) {
-  using M = LineMethod;
-  return method == M::Uniform || method == M::Curvature || method == M::Control || method == M::ZLines ||
-         method == M::HiddenLines;
-}
-
 toml::Schema line_weight_schema() {
   return {{.path = "object.outline.weight", .keys = {"shade", "paint", "map", "material"}},
           {.path = "object.outline.weight.material", .keys = {"name", "factor"}}};
@@ -40,11 +34,7 @@ LineWeightScene read_line_weight(const toml::Table& outline, LineMethod method) 
   LineWeightScene scene;
   const auto weight = outline.table("weight");
   if (!weight) return scene;
-  if (!can_weigh(method)) {
-    throw outline.error_at(
-        "weight", "goes with method = \"uniform\", \"curvature\", \"control\", \"z_lines\" or \"hidden_lines\"",
-        "choose one of these, or leave it out");
-  }
+  require_pushed_contour(outline, "weight", method);
   scene.shade = weight->number("shade", {0, most}).value_or(0);
   scene.paint = read_choice<int>(*weight, "paint", {{"red", 0}, {"green", 1}, {"blue", 2}, {"alpha", 3}});
   if (weight->has("map")) scene.map = existing_file(*weight, "map");

@@ -28,13 +28,10 @@ struct LineWeightScene {
   bool any() const { return shade > 0 || paint || !map.empty() || !materials.empty() || !of_file.empty() || file_maps; }
 };
 
-/// Whether a method's lines can be weighed: whether they are drawn along the contour's points.
-bool can_weigh(LineMethod method);
-
 toml::Schema line_weight_schema();
 
-/// Reads `weight` of the table `outline`; nothing weighs if there is none. Throws Error (Input), also for methods whose
-/// lines are not drawn along the contour's points.
+/// Reads `weight` of the table `outline`; nothing weighs if there is none. Throws Error (Input), also for methods that
+/// do not push the contour.
 LineWeightScene read_line_weight(const toml::Table& outline, LineMethod method);
 
 }  // namespace rinkaku::pipeline

@@ -55,6 +55,7 @@ void read_curvature_width(const Table& outline, OutlineScene& scene) {
       throw outline.error_at(key, "goes with method = \"curvature\" or \"control\"", "add that, or leave it out");
     }
   }
+  require_pushed_contour(outline, "lean", scene.method);
   if (outline.has("control") && scene.method != O::Method::Control) {
     throw outline.error_at("control", "goes with method = \"control\"", "add that, or leave it out");
   }
@@ -74,6 +75,7 @@ void read_curvature_width(const Table& outline, OutlineScene& scene) {
   scene.curve = outline.number("curve", Limits::above(0, 10)).value_or(scene.curve);
   scene.min_factor = outline.number("min_factor", Limits::above(0, 1)).value_or(scene.min_factor);
   scene.smoothing = static_cast<int>(outline.integer("smoothing", 0, 100).value_or(scene.smoothing));
+  scene.lean = outline.number("lean", {0, 1000}).value_or(scene.lean);
   scene.thickness_part = outline.number("thickness_part", {0, 100}).value_or(scene.thickness_part);
 }
 
@@ -81,9 +83,9 @@ void read_curvature_width(const Table& outline, OutlineScene& scene) {
 
 toml::Schema outline_schema() {
   toml::Section outline{.path = "object.outline",
-                        .keys = {"width_px", "width_m", "min_px", "max_px", "taper_px", "colour", "method", "curvature",
-                                 "sign", "exaggeration", "saturation", "curve", "min_factor", "smoothing",
-                                 "thickness_part", "control", "weight"}};
+                        .keys = {"width_px", "width_m", "min_px", "max_px", "lean", "taper_px", "colour", "method",
+                                 "curvature", "sign", "exaggeration", "saturation", "curve", "min_factor",
+                                 "smoothing", "thickness_part", "control", "weight"}};
   for (const std::string_view key : line_style_keys()) outline.keys.push_back(key);
   toml::Schema schema{std::move(outline)};
   for (toml::Section& section : line_style_schema()) schema.push_back(std::move(section));

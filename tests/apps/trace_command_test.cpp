@@ -27,7 +27,7 @@ TEST_F(TraceCommand, LineIsRenderedWhereItWasDrawn) {
   EXPECT_EQ(test::json_of(traced.out).at("lines"), 1);
   folder.write("scene.toml", test::drawn_scene +
                                  "colour = \"#ffffff\"\ntoon = false\n"
-                                 "outline = { width_px = 3, colour = \"#ff0000\", drawn = \"marks.csv\" }\n");
+                                 "outline = { width_px = 3, taper_px = 0, colour = \"#ff0000\", drawn = \"marks.csv\" }\n");
   const test::CliResult rendered =
       test::run_rinkaku(folder, "render scene.toml -o out.mkv --codec ffv1 --layers layers");
   ASSERT_EQ(rendered.status, 0) << rendered.err;

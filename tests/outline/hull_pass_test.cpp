@@ -177,13 +177,17 @@ TEST_F(Hull, NearPlaneAndEyeInsideAreNoTrouble) {
   }
 }
 
-TEST_F(Hull, ProgramIsMadeOnlyForObjectsWithALine) {
+// Two: of the line, and of what lies behind it.
+TEST_F(Hull, ProgramsAreMadeOnlyForObjectsWithALine) {
   const mesh::Mesh mesh = cube();
   gl::Made before = gl::made();
   const passes::StyledObject plain = toon(mesh, glm::dmat4(1));
   const int without = gl::made().programs - before.programs;
   before = gl::made();
   const passes::StyledObject with_line = lined(mesh, glm::dmat4(1), 3);
+  EXPECT_EQ(gl::made().programs - before.programs, without + 2);
+  before = gl::made();
+  const passes::StyledObject upright = lined(mesh, glm::dmat4(1), outline::HullOptions{.lean = 0});
   EXPECT_EQ(gl::made().programs - before.programs, without + 1);
 }
 

@@ -159,7 +159,7 @@ TEST_F(LineShape, FactorsSetTheWidthAtEachPoint) {
   std::vector<float> factors(mesh.point_count, 1.0f);
   std::fill(factors.begin(), factors.begin() + 48, 3.0f);
   outline::HullOptions options;
-  options.width_px = 2;
+  options.look.width_px = 2;
   options.style.factors = factors;
   // Seen from the side, 80 px from rim to rim.
   const Layer layer = drawn(scene_of(lined(mesh, moved(0.003, 0.002, 10), options)), v);
@@ -171,33 +171,80 @@ TEST_F(LineShape, FactorsSetTheWidthAtEachPoint) {
   }
 }
 
-// A square before a wall: its line of 2 px, made five times as thick, has all of that where the wall is far behind;
-// close before the wall, what is added reaches no farther than a third of the step, and the base line stays.
-TEST_F(LineShape, WhatIsAddedIsNoWiderThanTheStepItMarks) {
+// Red along a row from inside the square (white) to the wall (blue), or to nothing: what is neither.
+double ink_beside_px(const Layer& layer, int row) {
+  double ink_px = 0;
+  for (int x = 120; x < 240; ++x) {
+    const auto c = at(layer, x, row);
+    ink_px += (255.0 - c[2]) / 255.0;
+  }
+  return ink_px;
+}
+
+// A square before a wall: its line has all of its width where the wall is far behind; close before the wall, it is as
+// wide as a pixel and, by `lean` = 3, a third of the step; with no lean it is never thinner.
+TEST_F(LineShape, LeansBackOverWhatLiesCloseBehind) {
   const View v = view(240, 240, 400);
   const mesh::Mesh leaf = square(), wall = square({0, 0, 1, 1});
-  const std::vector<float> factors(leaf.point_count, 5.0f);
-  outline::HullOptions options;
-  options.width_px = 2;
-  options.colour = {1, 0, 0};
-  options.style.factors = factors;
   constexpr double distance = 10, pixel_m = distance / 400;
-  // The wall's depth behind the square in the square's pixels, and how wide the line is then: 2 + step / 3.
   struct At {
-    double step_px, width_px;
+    double step_px;  // the wall's depth behind the square in the square's pixels
+    float factor, lean;
+    double width_px;
   };
-  for (const At& at_step : {At{400, 10}, At{12, 6}, At{6, 4}, At{0.6, 2.2}}) {
+  for (const At& now : {At{400, 5, 3, 10}, At{12, 5, 3, 5}, At{6, 5, 3, 3}, At{0.6, 5, 3, 1.2}, At{400, 1, 3, 2},
+                        At{1.5, 1, 3, 1.5}, At{0.6, 1, 3, 1.2}, At{0.6, 1, 1, 1.6}, At{0.6, 1, 0, 2}, At{6, 5, 0, 10},
+                        At{0.6, 0.25f, 3, 0.5}}) {
+    const std::vector<float> factors(leaf.point_count, now.factor);
+    outline::HullOptions options;
+    options.look.width_px = 2;
+    options.look.colour = {1, 0, 0};
+    options.style.factors = factors;
+    options.lean = now.lean;
     std::vector<passes::StyledObject> objects = scene_of(lined(leaf, moved(0.001, 0.002, distance), options));
-    objects.push_back(toon(wall, moved(0, 0, distance + at_step.step_px * pixel_m) * scaled(30)));
-    const Layer layer = drawn(std::move(objects), v);
-    // Red along a row from inside the square (white) to the wall (blue): what is neither.
-    double ink_px = 0;
-    for (int x = 120; x < 240; ++x) {
-      const auto c = at(layer, x, 120);
-      ink_px += (255.0 - c[2]) / 255.0;
+    objects.push_back(toon(wall, moved(0, 0, distance + now.step_px * pixel_m) * scaled(30)));
+    // Edges within some hundredths of a pixel.
+    EXPECT_NEAR(ink_beside_px(drawn(std::move(objects), v), 120), now.width_px, 0.15)
+        << "step " << now.step_px << " px, factor " << now.factor << ", lean " << now.lean;
+  }
+}
+
+// Over a wall that comes nearer to the line's end, the width follows it, and does not tremble with the pose.
+TEST_F(LineShape, LeansBackSteadily) {
+  const View v = view(240, 240, 400);
+  // A strip of many edges, as widths are found at points.
+  const mesh::Mesh leaf = grid_mesh({3, 41, false, false}, [](double a, double b) {
+    return glm::dvec3(2 * a - 1, 2 * b - 1, 0);
+  });
+  const mesh::Mesh wall = square({0, 0, 1, 1});
+  outline::HullOptions options;
+  options.look.width_px = 6;
+  options.look.colour = {1, 0, 0};
+  constexpr double distance = 10, pixel_m = distance / 400;
+  // The wall leans: from 0 px behind the leaf's one end (row 80) to 24 px behind its other (row 160).
+  const glm::dmat4 lean = moved(0, 0, distance + 12 * pixel_m) * glm::rotate(glm::dmat4(1), std::atan(0.3), {1, 0, 0});
+  std::vector<passes::StyledObject> objects = scene_of(lined(leaf, moved(0.001, 0.002, distance), options));
+  objects.push_back(toon(wall, lean * scaled(30)));
+  passes::LayerRenderer renderer(std::move(objects), picture_of(v));
+  std::mt19937 random(3);
+  std::normal_distribution<double> noise(0, 1);
+  std::vector<double> sums(240), squares(240);
+  constexpr int frames = 60;
+  for (int frame = 0; frame < frames; ++frame) {
+    View from = v;
+    from.camera_from_world.translation_m = {0.3 * pixel_m * noise(random), 0.3 * pixel_m * noise(random), 0};
+    Layer layer;
+    ASSERT_TRUE(renderer.draw(from, layer));
+    for (std::size_t row = 90; row < 150; ++row) {
+      const double ink_px = ink_beside_px(layer, static_cast<int>(row));
+      sums[row] += ink_px / frames, squares[row] += ink_px * ink_px / frames;
     }
-    // Edges within some hundredths of a pixel, and the soft pixel's own depth is that of its middle.
-    EXPECT_NEAR(ink_px, at_step.width_px, 0.5) << at_step.step_px;
+  }
+  for (std::size_t row = 90; row < 150; ++row) {
+    const double behind_px = 0.3 * std::abs(static_cast<double>(row) + 0.5 - 80);
+    EXPECT_NEAR(sums[row], std::min(1 + behind_px / 3, 6.0), 0.3) << row;
+    // 0.3 px along the wall are 0.03 px of width.
+    EXPECT_LT(std::sqrt(std::max(squares[row] - sums[row] * sums[row], 0.0)), 0.1) << row;
   }
 }
 
@@ -207,8 +254,8 @@ TEST_F(LineShape, WidthIsSteadyUnderAPoseThatTrembles) {
   const mesh::Mesh mesh = sphere(4);
   const mesh::Topology topology = mesh::topology(mesh);
   outline::HullOptions options;
-  options.width_px = 3;
-  options.colour = {1, 0, 0};
+  options.look.width_px = 3;
+  options.look.colour = {1, 0, 0};
   // Half of the ball's line is twice as thick, with a slope between.
   std::vector<float> factors;
   for (const glm::vec3& p : topology.points) factors.push_back(1.5f + 0.5f * p.y);
@@ -240,10 +287,10 @@ TEST_F(LineShape, WidthInMetresFollowsDepthBetweenItsLimits) {
   const View v = view(240, 240, 400);
   const mesh::Mesh ball = sphere(5);
   outline::HullOptions options;
-  options.width_m = 0.02f;
-  options.least_px = 1.5f;
-  options.most_px = 6;
-  options.colour = {1, 0, 0};
+  options.look.width_m = 0.02f;
+  options.look.least_px = 1.5f;
+  options.look.most_px = 6;
+  options.look.colour = {1, 0, 0};
   struct At {
     double distance_m, width_px;
   };
@@ -264,8 +311,8 @@ TEST_F(LineShape, WidthInMetresFollowsDepthBetweenItsLimits) {
 TEST_F(LineShape, ThinLinesFadeAtEachPointByItself) {
   const View v = view(240, 240, 300);
   outline::HullOptions options;
-  options.width_m = 0.01f;
-  options.colour = {1, 0, 0};
+  options.look.width_m = 0.01f;
+  options.look.colour = {1, 0, 0};
   // A square that leans away: its left side 2 m away, its right side 10 m.
   const glm::dmat4 place = moved(0.5, 0, 6) * glm::rotate(glm::dmat4(1), -std::atan2(4.0, 1.0), {0, 1, 0}) *
                            glm::scale(glm::dmat4(1), {std::hypot(4.0, 1.0), 0.5, 1});
@@ -321,7 +368,7 @@ TEST_F(LineShape, IsClosedAroundClosedMeshes) {
       for (int i = 0; i < 30; ++i) {
         outline::HullOptions options;
         options.style.factors = factors;
-        options.colour = {1, 0, 0};
+        options.look.colour = {1, 0, 0};
         const glm::dmat4 place = moved(0.01, -0.02, 4) * glm::rotate(glm::dmat4(1), 0.2 + i * 0.53, {0.5, 1, 0.3}) *
                                  glm::rotate(glm::dmat4(1), i * 1.1, {1, 0, 0}) * scaled(0.7);
         EXPECT_EQ(gaps(drawn(scene_of(lined(mesh, place, options)), v)), 0)
@@ -336,8 +383,8 @@ TEST_F(LineShape, InkChangesSmoothlyInADolly) {
   const View v = view(240, 240, 300);
   const mesh::Mesh mesh = bumpy_torus();
   outline::HullOptions options;
-  options.width_m = 0.03f;
-  options.colour = {1, 0, 0};
+  options.look.width_m = 0.03f;
+  options.look.colour = {1, 0, 0};
   passes::LayerRenderer renderer(scene_of(lined(mesh, glm::rotate(glm::dmat4(1), 0.7, {1, 0.3, 0}), options)),
                                  picture_of(v));
   constexpr double step = 1.01;

@@ -91,7 +91,7 @@ TEST_P(RealClosedMeshes, HaveNoGapInTheirLines) {
   const passes::View v = view(300, 300, 450);
   for (const bool follows : {false, true}) {
     outline::HullOptions options;
-    options.colour = {1, 0, 0};
+    options.look.colour = {1, 0, 0};
     if (follows) options.style.factors = factors;
     for (int i = 0; i < 8; ++i) {
       const glm::dmat4 place =

@@ -19,8 +19,8 @@ inline passes::StyledObject lined(const mesh::Mesh& mesh, const glm::dmat4& plac
 inline passes::StyledObject lined(const mesh::Mesh& mesh, const glm::dmat4& place, double width_px,
                                   const glm::vec3& colour = {1, 0, 0}) {
   outline::HullOptions options;
-  options.width_px = static_cast<float>(width_px);
-  options.colour = colour;
+  options.look.width_px = static_cast<float>(width_px);
+  options.look.colour = colour;
   return lined(mesh, place, options);
 }
 

@@ -44,8 +44,8 @@ TEST_F(LinedThickness, WhatIsAddedToAThinRodIsAPartOfItsThickness) {
   for (const bool metres : {false, true}) {
     for (const double distance : {5.0, 10.0, 20.0}) {
       outline::HullOptions options = within_thickness(rod, factors, 0.5);
-      options.width_px = 2;
-      if (metres) options.width_m = 0.05f;
+      options.look.width_px = 2;
+      if (metres) options.look.width_m = 0.05f;
       const double base_px = metres ? 0.05 * 400 / distance : 2, rod_px = 0.1 * 400 / distance;
       const Layer layer = drawn(scene_of(lined(rod, moved(0.001, 0, distance), options)), v);
       const glm::dvec2 contour(v.camera.cx_px + 0.001 * 400 / distance - rod_px / 2, v.camera.cy_px);
@@ -64,7 +64,7 @@ TEST_F(LinedThickness, ABallThickerThanItsLineKeepsAllOfIt) {
   const std::vector<float> factors(ball.point_count, 5.0f);
   outline::HullOptions limited = within_thickness(ball, factors, 0.5), free;
   free.style.factors = factors;
-  limited.width_px = free.width_px = 2;
+  limited.look.width_px = free.look.width_px = 2;
   // 80 px thick.
   const glm::dmat4 near = moved(0.001, 0.002, 10);
   const Layer one = drawn(scene_of(lined(ball, near, limited)), v), other = drawn(scene_of(lined(ball, near, free)), v);

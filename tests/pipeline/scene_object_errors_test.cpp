@@ -169,6 +169,11 @@ INSTANTIATE_TEST_SUITE_P(
                  "DIR/scene.toml:8:28: 'exaggeration' in outline of [[object]] goes with method = \"curvature\" or "
                  "\"control\"; add "
                  "that, or leave it out"},
+        BadScene{"LeanOfStrokes", object + "outline = { method = \"strokes\", lean = 1 }\n",
+                 "DIR/scene.toml:8:40: 'lean' in outline of [[object]] goes with method = \"uniform\", \"curvature\", "
+                 "\"control\", \"z_lines\" or \"hidden_lines\"; choose one of these, or leave it out"},
+        BadScene{"NegativeLean", object + "outline = { lean = -1 }\n",
+                 "DIR/scene.toml:8:20: 'lean' in outline of [[object]] must be a number from 0 to 1000, found -1"},
         BadScene{"ThicknessOfUniform", object + "outline = { thickness_part = 1 }\n",
                  "DIR/scene.toml:8:30: 'thickness_part' in outline of [[object]] goes with method = \"curvature\" or "
                  "\"control\"; add that, or leave it out"},

@@ -133,7 +133,7 @@ TEST(Scene, TakesLinesThatFollowCurvature) {
                                  .read(object +
                                        "outline = { width_px = 2, method = \"curvature\", curvature = \"largest\", "
                                        "sign = \"concave\", exaggeration = 4, saturation = 0.5, curve = 2, "
-                                       "min_factor = 0.1, smoothing = 0, taper_px = 7, thickness_part = 0.75 }\n")
+                                       "min_factor = 0.1, smoothing = 0, lean = 1.5, taper_px = 7, thickness_part = 0.75 }\n")
                                  .objects[0]
                                  .outline;
   EXPECT_EQ(line.method, OutlineScene::Method::Curvature);
@@ -145,6 +145,7 @@ TEST(Scene, TakesLinesThatFollowCurvature) {
   EXPECT_EQ(line.min_factor, 0.1);
   EXPECT_EQ(line.smoothing, 0);
   EXPECT_EQ(line.thickness_part, 0.75);
+  EXPECT_EQ(line.lean, 1.5);
   EXPECT_EQ(line.taper_px, 7);
 }
 

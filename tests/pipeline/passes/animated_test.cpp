@@ -51,7 +51,7 @@ passes::StyledObject styled(const mesh::Mesh& mesh, const glm::dmat4& place, con
   styled.object = std::make_unique<passes::DrawnObject>(std::move(shape), skinning);
   styled.passes.push_back(std::make_unique<passes::ToonPass>(*styled.object, mesh, lit()));
   outline::HullOptions line;
-  line.width_px = 4;
+  line.look.width_px = 4;
   styled.passes.push_back(std::make_unique<outline::HullPass>(*styled.object, line));
   return styled;
 }

@@ -1,4 +1,4 @@
-#include "outline/styles/line_look.h"
+#include "outline/pass/line_look.h"
 
 #include <algorithm>
 
