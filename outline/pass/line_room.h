@@ -1,7 +1,5 @@
 #pragma once
 
-#include <cstddef>
-
 #include "outline/pass/line_look.h"
 #include "pipeline/gl/buffer.h"
 #include "pipeline/gl/program.h"
@@ -14,8 +12,9 @@ namespace rinkaku::outline {
 /// of its depth. Around an object a line has all of its width; around a mouth that stands out from a face by a
 /// millimetre it has a pixel; where a fold runs out on a surface, it gets thinner before it ends.
 ///
-/// A compute shader looks it up in the depths of all that was drawn before; nothing waits for it on the CPU. Needs the
-/// GL context that was current at construction to be current.
+/// A vertex shader looks it up in the depths of all that was drawn before, and transform feedback keeps it; nothing comes
+/// back to the CPU. (Of compute shaders each dispatch costs half a millisecond where OpenGL runs on the CPU.) Needs the GL
+/// context that was current at construction to be current.
 class LineRoom {
  public:
   static constexpr float any_width_px = 1e9f;  ///< the room where nothing lies close behind
@@ -24,17 +23,18 @@ class LineRoom {
   /// `lean`: above 0.
   LineRoom(float lean, float largest_factor);
 
-  /// Finds the room of the object's lines as they were uploaded, of this look.
-  void find(const passes::DrawnObject& object, const LineLook& look, const passes::DrawCall& call);
+  /// Finds the room of the object's lines as they were uploaded. What the call's depths are of was drawn before a
+  /// glTextureBarrier().
+  void find(passes::DrawnObject& object, const LineLook& look, const passes::DrawCall& call);
   /// A float for each line vertex, in pixels.
   GLuint name() const { return room_.name(); }
 
  private:
   gl::Program program_;
   LineWidthUniforms width_;
-  GLint vertex_count_ = -1, clip_from_object_ = -1, viewport_px_ = -1, near_m_ = -1, focal_px_ = -1;
+  GLint clip_from_object_ = -1, viewport_px_ = -1, near_m_ = -1, focal_px_ = -1;
   gl::StorageBuffer room_;
-  std::size_t holds_ = 0;
+  GLsizei holds_ = 0;
 };
 
 }  // namespace rinkaku::outline

@@ -19,7 +19,7 @@ class StaticBuffer {
   BufferHandle handle_;
 };
 
-/// Memory on the GL side that shaders write. Its contents are unset at first.
+/// Memory on the GL side that shaders or transform feedback write. Its contents are unset at first.
 class StorageBuffer {
  public:
   StorageBuffer() = default;

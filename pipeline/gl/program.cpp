@@ -38,7 +38,17 @@ Program::Program(std::string_view name, std::span<const std::string_view> define
 
 Program Program::compute(std::string_view name, std::span<const std::string_view> defines,
                          std::span<const std::string_view> parts) {
-  const ShaderHandle shaders[] = {compile(GL_COMPUTE_SHADER, name, defines, parts)};
+  return alone(GL_COMPUTE_SHADER, name, defines, parts);
+}
+
+Program Program::vertices(std::string_view name, std::span<const std::string_view> defines,
+                          std::span<const std::string_view> parts) {
+  return alone(GL_VERTEX_SHADER, name, defines, parts);
+}
+
+Program Program::alone(GLenum stage, std::string_view name, std::span<const std::string_view> defines,
+                       std::span<const std::string_view> parts) {
+  const ShaderHandle shaders[] = {compile(stage, name, defines, parts)};
   Program program;
   program.link(name, shaders);
   return program;

@@ -9,7 +9,8 @@
 
 namespace rinkaku::gl {
 
-/// A linked vertex and fragment shader, or a compute shader.
+/// A linked vertex and fragment shader, or one of these that works alone: a compute shader, or a vertex shader whose
+/// results transform feedback keeps.
 class Program {
  public:
   Program() = default;
@@ -23,6 +24,9 @@ class Program {
   /// The same with a compute shader, alone.
   static Program compute(std::string_view name, std::span<const std::string_view> defines,
                          std::span<const std::string_view> parts);
+  /// The same with a vertex shader, alone; it says itself where its results go (xfb_offset).
+  static Program vertices(std::string_view name, std::span<const std::string_view> defines,
+                          std::span<const std::string_view> parts);
 
   GLuint name() const { return handle_.name(); }
   explicit operator bool() const { return static_cast<bool>(handle_); }
@@ -31,6 +35,8 @@ class Program {
   GLint uniform(const char* uniform_name) const { return glGetUniformLocation(handle_.name(), uniform_name); }
 
  private:
+  static Program alone(GLenum stage, std::string_view name, std::span<const std::string_view> defines,
+                       std::span<const std::string_view> parts);
   void link(std::string_view name, std::span<const ShaderHandle> shaders);
 
   ProgramHandle handle_;

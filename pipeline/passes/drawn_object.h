@@ -36,8 +36,8 @@ class DrawnObject {
   /// Binds the contour's lines; one draw of as many indices as is returned. Attribute 2 is each vertex's float of
   /// the buffer `besides`; with 0, the context's current value.
   GLsizei bind_lines(GLuint besides = 0);
-  /// The uploaded line vertices.
-  GLuint line_buffer() const { return line_buffer_.name(); }
+  /// How many vertices they have.
+  GLsizei line_vertices() const { return static_cast<GLsizei>(shape_.last_look().line_vertices.size()); }
   /// Binds the quads along borders between materials (see BorderStrips).
   std::span<const Run> bind_borders();
   /// Binds the quads along intersections (see IntersectionStrips).

@@ -102,6 +102,7 @@ void LayerRenderer::draw_surfaces(const View& view, const PixelRect& rect, const
 }
 
 void LayerRenderer::look_behind(const View& view, const PixelRect& rect, const Slice& slice, Ink ink) {
+  glTextureBarrier();  // the depths are read while they are the target's
   for (const Visible& v : visible_) {
     if (!slice.holds(v)) continue;
     DrawCall call = call_for(view, *v.styled, rect, ink);

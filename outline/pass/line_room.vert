@@ -1,12 +1,9 @@
-// How wide a line may be at each of its vertices, for what lies close behind it there.
+// How wide a line may be at each of its vertices, for what lies close behind it there. Draws nothing.
 
-layout(local_size_x = 64) in;
+layout(location = 0) in vec3 position;
+layout(location = 1) in vec4 line;  // LineVertex::line
+layout(xfb_buffer = 0, xfb_stride = 4, xfb_offset = 0) out float room_px;
 
-const uint words_per_vertex = 5u;  // of LineVertex: three floats, four snorm of 16 bits
-layout(std430, binding = 0) readonly buffer Vertices { uint words[]; };
-layout(std430, binding = 1) writeonly buffer Room { float room_px[]; };
-
-uniform uint vertex_count;
 uniform sampler2D depths;  // near_m / Z of what was drawn so far, as large as the viewport at least
 uniform mat4 clip_from_object;
 uniform vec2 viewport_px;
@@ -44,17 +41,9 @@ float room_at(vec4 clip, vec2 way, float whole_px) {
 }
 
 void main() {
-  uint v = gl_GlobalInvocationID.y * gl_NumWorkGroups.x * gl_WorkGroupSize.x + gl_GlobalInvocationID.x;
-  if (v >= vertex_count) return;
-  uint first = v * words_per_vertex;
-  vec3 position = uintBitsToFloat(uvec3(words[first], words[first + 1u], words[first + 2u]));
-  vec2 way = unpackSnorm2x16(words[first + 3u]) * most_push;
-  float factor = unpackSnorm2x16(words[first + 4u]).x * largest_factor;
   vec4 clip = clip_from_object * vec4(position, 1.0);
-  float room = any_width_px;
-  if (clip.w > near_m) {
-    float whole_px = wished_px(clip.w) * factor;
-    if (whole_px > free_px) room = room_at(clip, way, whole_px);
-  }
-  room_px[v] = room;
+  room_px = any_width_px;
+  if (clip.w <= near_m) return;
+  float whole_px = wished_px(clip.w) * line.z * largest_factor;
+  if (whole_px > free_px) room_px = room_at(clip, line.xy * most_push, whole_px);
 }
