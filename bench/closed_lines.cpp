@@ -96,6 +96,7 @@ std::uint64_t walk(const fs::path& file, const Wish& wish) {
     pipeline::OutlineScene line;
     line.method = method;
     line.width_px = kLine_px;
+    line.taper_px = 0;
     line.colour = {1, 0, 0};
     passes::ToonOptions unlit;
     unlit.bands = 0;

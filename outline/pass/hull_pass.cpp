@@ -38,13 +38,15 @@ double HullPass::reach_px(const passes::View& view) const {
 }
 
 void HullPass::look_behind(const passes::DrawCall& call) {
-  if (room_) room_->find(object_, look_, call);
+  // In a mirror depth counts otherwise, and lines keep their width.
+  has_looked_ = room_.has_value() && !call.view.mirror;
+  if (has_looked_) room_->find(object_, look_, call);
 }
 
 void HullPass::draw_edges(const passes::DrawCall& call) {
   constexpr GLuint room = 2;  // the attribute
   glVertexAttrib1f(room, LineRoom::any_width_px);
-  const GLsizei count = object_.bind_lines(room_ ? room_->name() : 0);
+  const GLsizei count = object_.bind_lines(has_looked_ ? room_->name() : 0);
   if (count == 0) return;
   glUseProgram(program_.name());
   width_.set(look_, call);

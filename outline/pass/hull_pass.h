@@ -12,8 +12,8 @@ namespace rinkaku::outline {
 
 struct HullOptions {
   LineLook look{};
-  float lean = 3;  ///< how steeply the line leans back over what lies close behind (LineRoom); 0: not at all
-  passes::LineStyle style{};              ///< read at construction only; its base line is that of these options
+  float lean = 3;             ///< how steeply it leans back over what lies close behind (LineRoom); 0: not at all
+  passes::LineStyle style{};  ///< read at construction only; its width is that of `look`
 };
 
 /// Draws a line around an object by its hull: the mesh pushed outwards along welded normals, seen from within (Raskar
@@ -41,6 +41,7 @@ class HullPass : public passes::ObjectPass {
   passes::DrawnObject& object_;
   LineLook look_;
   std::optional<LineRoom> room_;
+  bool has_looked_ = false;  // behind this frame's lines
   gl::Program program_;
   LineWidthUniforms width_;
   GLint clip_from_object_ = -1;

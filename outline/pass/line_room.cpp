@@ -13,6 +13,7 @@ LineRoom::LineRoom(float lean, float largest_factor) {
   clip_from_object_ = program_.uniform("clip_from_object");
   viewport_px_ = program_.uniform("viewport_px");
   near_m_ = program_.uniform("near_m");
+  empty_depth_ = program_.uniform("empty_depth");
   focal_px_ = program_.uniform("focal_px");
   const GLuint name = program_.name();
   glProgramUniform1i(name, program_.uniform("depths"), 0);
@@ -33,7 +34,9 @@ void LineRoom::find(passes::DrawnObject& object, const LineLook& look, const pas
   glUniformMatrix4fv(clip_from_object_, 1, GL_FALSE, glm::value_ptr(call.clip_from_object));
   glUniform2f(viewport_px_, call.viewport_px.x, call.viewport_px.y);
   glUniform1f(near_m_, call.near_m);
+  glUniform1f(empty_depth_, call.empty_depth);
   glUniform1f(focal_px_, static_cast<float>(call.view.camera.fx_px));
+  glTextureBarrier();  // the depths are still the target's
   glBindTextureUnit(0, call.depths);
   glBindBufferBase(GL_TRANSFORM_FEEDBACK_BUFFER, 0, room_.name());
   glEnable(GL_RASTERIZER_DISCARD);
@@ -41,6 +44,8 @@ void LineRoom::find(passes::DrawnObject& object, const LineLook& look, const pas
   glDrawArrays(GL_POINTS, 0, count);
   glEndTransformFeedback();
   glDisable(GL_RASTERIZER_DISCARD);
+  glBindBufferBase(GL_TRANSFORM_FEEDBACK_BUFFER, 0, 0);
+  glBindTextureUnit(0, 0);
 }
 
 }  // namespace rinkaku::outline

@@ -7,6 +7,7 @@
 
 #include "mesh/mesh.h"
 #include "mesh/topology.h"
+#include "outline/pass/line_look.h"
 #include "outline/strokes/chains.h"
 #include "outline/strokes/drawn_lines.h"
 #include "outline/strokes/features.h"
@@ -15,7 +16,6 @@
 #include "outline/strokes/stroke_memory.h"
 #include "outline/strokes/stroke_mesh.h"
 #include "outline/strokes/stroke_path.h"
-#include "outline/pass/line_look.h"
 #include "outline/styles/surface_buffer.h"
 #include "pipeline/gl/buffer.h"
 #include "pipeline/gl/texture.h"

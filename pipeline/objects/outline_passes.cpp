@@ -62,6 +62,7 @@ OutlineScene least_of(OutlineScene line) {
   const double part = line.method == M::Isophote ? 0.2 : std::max(0.25, 1 - line.style.wobble);
   line.width_px *= part, line.min_px *= part, line.max_px *= part;
   if (line.width_m) *line.width_m *= part;
+  line.lean = 0;  // it closes gaps, also over what lies close behind
   return line;
 }
 

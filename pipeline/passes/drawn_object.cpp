@@ -137,13 +137,13 @@ void DrawnObject::ask_for_lines(const LineStyle& style) {
   gl::set_attribute(name, 2, {1, GL_FLOAT, GL_FALSE, 0, 1});
 }
 
-GLsizei DrawnObject::bind_lines(GLuint besides) {
+GLsizei DrawnObject::bind_lines(GLuint room) {
   const auto count = static_cast<GLsizei>(shape_.last_look().line_indices.size());
   if (count == 0) return 0;
   const GLuint name = line_array_.name();
-  if (besides != 0) {
+  if (room != 0) {
     glEnableVertexArrayAttrib(name, 2);
-    glVertexArrayVertexBuffer(name, 1, besides, 0, sizeof(float));
+    glVertexArrayVertexBuffer(name, 1, room, 0, sizeof(float));
   } else {
     glDisableVertexArrayAttrib(name, 2);
   }

@@ -34,8 +34,8 @@ class DrawnObject {
   /// Has looks find lines from now on (see ObjectShape::ask_for_lines).
   void ask_for_lines(const LineStyle& style);
   /// Binds the contour's lines; one draw of as many indices as is returned. Attribute 2 is each vertex's float of
-  /// the buffer `besides`; with 0, the context's current value.
-  GLsizei bind_lines(GLuint besides = 0);
+  /// the buffer `room`; with 0, the context's current value.
+  GLsizei bind_lines(GLuint room = 0);
   /// How many vertices they have.
   GLsizei line_vertices() const { return static_cast<GLsizei>(shape_.last_look().line_vertices.size()); }
   /// Binds the quads along borders between materials (see BorderStrips).

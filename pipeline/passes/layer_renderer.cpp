@@ -74,7 +74,7 @@ PixelRect LayerRenderer::covered(const Slice& slice) const {
 
 void LayerRenderer::begin(const PixelRect& rect, const Slice& slice) {
   // Depth is near / Z, and greater depth wins: cleared to the far cut's, it keeps out what lies behind.
-  target_.begin(rect.width_px, rect.height_px, slice.near_m / slice.far_m);
+  target_.begin(rect.width_px, rect.height_px, empty_depth(slice));
   glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
   glEnable(GL_DEPTH_TEST);
   glDepthFunc(GL_GEQUAL);
@@ -101,12 +101,12 @@ void LayerRenderer::draw_surfaces(const View& view, const PixelRect& rect, const
   blend_over(ink == Ink::All);
 }
 
-void LayerRenderer::look_behind(const View& view, const PixelRect& rect, const Slice& slice, Ink ink) {
-  glTextureBarrier();  // the depths are read while they are the target's
+void LayerRenderer::look_behind(const View& view, const PixelRect& rect, const Slice& slice) {
   for (const Visible& v : visible_) {
     if (!slice.holds(v)) continue;
-    DrawCall call = call_for(view, *v.styled, rect, ink);
+    DrawCall call = call_for(view, *v.styled, rect, Ink::All);
     call.depths = target_.depth_texture();
+    call.empty_depth = static_cast<float>(empty_depth(slice));
     for (auto& pass : v.styled->passes) pass->look_behind(call);
   }
 }
@@ -141,7 +141,7 @@ void LayerRenderer::read_depth(const Slice& slice, const PixelRect& rect, DepthL
   depth.rect = rect;
   depth.depth_m.resize(static_cast<std::size_t>(rect.width_px) * rect.height_px);
   target_.read_depth(rect.width_px, rect.height_px, depth.depth_m.data());
-  const auto near = static_cast<float>(slice.near_m), cleared = static_cast<float>(slice.near_m / slice.far_m);
+  const auto near = static_cast<float>(slice.near_m), cleared = static_cast<float>(empty_depth(slice));
   for (float& value : depth.depth_m) value = value > cleared ? near / value : 0;
 }
 
@@ -181,7 +181,7 @@ void LayerRenderer::draw_all(const View& view, const Slice& slice, Ink ink, Laye
   begin(layer.rect, slice);
   draw_surfaces(view, layer.rect, slice, ink);
   for (auto& pass : scene_passes_) pass->draw(view, layer.rect);
-  look_behind(view, layer.rect, slice, ink);
+  look_behind(view, layer.rect, slice);
   draw_edges(view, layer.rect, slice, ink);
   for (auto& pass : scene_passes_) pass->draw_over(view, layer.rect);
   read(layer);
@@ -194,7 +194,7 @@ bool LayerRenderer::draw_objects(const View& view, const PixelRect& picture, Lay
   if (layer.rect.empty()) return false;
   begin(layer.rect, all);
   draw_surfaces(view, layer.rect, all, Ink::All);
-  look_behind(view, layer.rect, all, Ink::All);
+  look_behind(view, layer.rect, all);
   draw_edges(view, layer.rect, all, Ink::All);
   read(layer);
   return true;

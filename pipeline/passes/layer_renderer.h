@@ -70,9 +70,10 @@ class LayerRenderer {
   bool draw_slice(const View& view, const Slice& slice, const PixelRect& scene_rect, Layer& layer, LayerParts* parts);
   enum class Ink { All, Lines };
   void draw_all(const View& view, const Slice& slice, Ink ink, Layer& layer);
+  static double empty_depth(const Slice& slice) { return slice.near_m / slice.far_m; }
   void begin(const PixelRect& rect, const Slice& slice);
   void draw_surfaces(const View& view, const PixelRect& rect, const Slice& slice, Ink ink);
-  void look_behind(const View& view, const PixelRect& rect, const Slice& slice, Ink ink);
+  void look_behind(const View& view, const PixelRect& rect, const Slice& slice);
   void draw_edges(const View& whole_view, const PixelRect& rect, const Slice& slice, Ink ink);
   void read(Layer& layer);
   void read_depth(const Slice& slice, const PixelRect& rect, DepthLayer& depth);

@@ -6,6 +6,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
+#include <glm/vector_relational.hpp>
 
 namespace rinkaku::passes {
 namespace {
@@ -237,11 +238,16 @@ void LineStrips::taper_ends() {
   }
 }
 
-// Into how many pieces of the screen's way from end to end a line is cut, so that none is longer than longest_px_.
+// Into how many pieces of the screen's way from end to end a line is cut, so that none is longer than longest_px_, as
+// far as 64 do.
 int LineStrips::pieces_of(const Place& from, const Place& to) const {
   constexpr int most = 64;
   if (longest_px_ <= 0 || !(from.seen.z > 0) || !(to.seen.z > 0)) return 1;
-  const float length_px = glm::distance(glm::vec2(from.seen) / from.seen.z, glm::vec2(to.seen) / to.seen.z);
+  const glm::vec2 a = glm::vec2(from.seen) / from.seen.z, b = glm::vec2(to.seen) / to.seen.z;
+  // What lies wholly beside the plate stays whole; a lens may show a little more than it.
+  const glm::vec2 around = 0.25f * plate_px_, least = glm::min(a, b), largest = glm::max(a, b);
+  if (glm::any(glm::lessThan(largest, -around)) || glm::any(glm::greaterThan(least, plate_px_ + around))) return 1;
+  const float length_px = glm::distance(a, b);
   return static_cast<int>(std::clamp(std::ceil(length_px / longest_px_), 1.0f, static_cast<float>(most)));
 }
 
@@ -305,6 +311,7 @@ void LineStrips::collect(const ContourStrips& contour, std::span<const ShapeVert
   line_vertices_.clear();
   indices_.clear();
   largest_push_squared_ = 1;
+  plate_px_ = {camera.width_px, camera.height_px};
   const CameraModel* lens = camera.has_distortion() ? &camera : nullptr;
   for (const ContourStrips::Piece& piece : contour.pieces()) {
     Line line{place_at(piece.from, vertices, to_pixels, lens), place_at(piece.to, vertices, to_pixels, lens), 0, 0};

@@ -47,9 +47,10 @@ struct LineStyle {
   std::vector<float> most_added_m{};
   /// The line that it is added to, set by who draws it: width_px + width_m seen at its depth, within these.
   float width_px = 0, width_m = 0, least_px = 0, most_px = 0;
-  float taper_px = 0;  ///< where a line ends on a surface, it gets thinner over this length, or less if it soon goes
-                       ///< on; 0: not at all
-  float longest_px = 0;  ///< longer edges are cut into pieces, for what is found at each vertex; 0: not at all
+  float taper_px = 0;    ///< where a line ends on a surface, it gets thinner over this length, or less if it soon goes
+                         ///< on; 0: not at all
+  float longest_px = 0;  ///< longer edges that can be seen are cut into up to 64 pieces, for what is found
+                         ///< at each vertex; 0: not at all
 };
 
 /// Turns a contour into lines of right width: along each edge a quad, and at corners what closes them. No GL.
@@ -137,6 +138,7 @@ class LineStrips {
   LineStyle::Follow follow_;
   std::vector<std::uint32_t> wanted_;
   float largest_push_squared_ = 1;
+  glm::vec2 plate_px_{0};  // this frame's
   // This frame's, kept for their memory.
   std::vector<Place> places_;
   std::vector<Line> lines_;

@@ -18,7 +18,8 @@ struct DrawCall {
   float near_m = static_cast<float>(passes::near_m);  ///< of clip_from_object: depth is this, divided by Z
   bool lines_only = false;  ///< a picture of the lines is drawn: all else only covers them, by GL_ZERO for its colour
   bool elsewhere = false;   ///< into a picture of a style's own, of another viewport than rect's
-  GLuint depths = 0;  ///< in look_behind(): the texture of all depths drawn so far, near_m / Z
+  GLuint depths = 0;        ///< in look_behind(): the texture of all depths drawn so far, near_m / Z but in mirrors
+  float empty_depth = 0;    ///< there: what it holds where nothing is
 };
 
 /// One way of drawing an object: its shading, its outline, ... An object has a list of them.
@@ -41,8 +42,8 @@ class ObjectPass {
   virtual bool draws_lines() const { return false; }
   /// Draws what is opaque: blending off, depth written.
   virtual void draw_surface(const DrawCall& call) = 0;
-  /// Once all surfaces are drawn, before the first edges: may find out from the depths of the call what lies behind
-  /// them. Draws nothing.
+  /// Before draw_edges(), once all surfaces are drawn: may find out from the depths of the call what lies behind the
+  /// edges. Draws nothing. The depths are the current target's: glTextureBarrier() comes before they are read.
   virtual void look_behind(const DrawCall&) {}
   /// Draws the feathers: blending on (premultiplied), depth tested but not written, which must hold again afterwards.
   virtual void draw_edges(const DrawCall& call) = 0;

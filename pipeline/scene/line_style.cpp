@@ -108,9 +108,9 @@ bool pushes_contour(LineMethod method) {
 
 void require_pushed_contour(const toml::Table& outline, std::string_view key, LineMethod method) {
   if (!outline.has(key) || pushes_contour(method)) return;
-  throw outline.error_at(
-      key, "goes with method = \"uniform\", \"curvature\", \"control\", \"z_lines\" or \"hidden_lines\"",
-      "choose one of these, or leave it out");
+  throw outline.error_at(key,
+                         "goes with method = \"uniform\", \"curvature\", \"control\", \"z_lines\" or \"hidden_lines\"",
+                         "choose one of these, or leave it out");
 }
 
 bool brings_inner_lines(LineMethod method) { return method == M::ZLines || method == M::HiddenLines; }

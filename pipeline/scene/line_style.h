@@ -39,8 +39,8 @@ std::string_view word_for(LineMethod method);
 /// Whether a method draws lines along edges of the mesh, which can end, and thin out there.
 bool follows_edges(LineMethod method);
 
-/// Whether the method's contour lines are the contour pushed outwards (outline::HullPass), which can be weighed and lean
-/// back.
+/// Whether all of the method's contour lines are the contour pushed outwards (outline::HullPass), which can be weighed
+/// and lean back.
 bool pushes_contour(LineMethod method);
 /// Throws Error (Input) if `outline` has the key and the method doesn't push the contour.
 void require_pushed_contour(const toml::Table& outline, std::string_view key, LineMethod method);

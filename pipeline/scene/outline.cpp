@@ -84,8 +84,8 @@ void read_curvature_width(const Table& outline, OutlineScene& scene) {
 toml::Schema outline_schema() {
   toml::Section outline{.path = "object.outline",
                         .keys = {"width_px", "width_m", "min_px", "max_px", "lean", "taper_px", "colour", "method",
-                                 "curvature", "sign", "exaggeration", "saturation", "curve", "min_factor",
-                                 "smoothing", "thickness_part", "control", "weight"}};
+                                 "curvature", "sign", "exaggeration", "saturation", "curve", "min_factor", "smoothing",
+                                 "thickness_part", "control", "weight"}};
   for (const std::string_view key : line_style_keys()) outline.keys.push_back(key);
   toml::Schema schema{std::move(outline)};
   for (toml::Section& section : line_style_schema()) schema.push_back(std::move(section));

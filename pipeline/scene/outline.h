@@ -23,8 +23,8 @@ struct OutlineScene {
   double min_px = 0;              ///< for width_m
   double max_px = 40;
   double lean = 3;  ///< pixels of depth per pixel of width, over what lies close behind: outline::LineRoom; 0: none
-  double taper_px = 0;                             ///< 0: lines end blunt; see usual_taper_px()
-  std::array<double, 3> colour{0.07, 0.05, 0.09};  ///< sRGB
+  double taper_px = usual_taper_px(LineMethod::Uniform);  ///< 0: lines end blunt
+  std::array<double, 3> colour{0.07, 0.05, 0.09};         ///< sRGB
   using Method = LineMethod;
   Method method = Method::Uniform;
   LineStyleScene style;  ///< what some methods have besides

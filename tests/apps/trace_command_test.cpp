@@ -25,9 +25,10 @@ TEST_F(TraceCommand, LineIsRenderedWhereItWasDrawn) {
       test::run_rinkaku(folder, "trace scene.toml --frame 1 --lines drawn.txt -o marks.csv --json");
   ASSERT_EQ(traced.status, 0) << traced.err;
   EXPECT_EQ(test::json_of(traced.out).at("lines"), 1);
-  folder.write("scene.toml", test::drawn_scene +
-                                 "colour = \"#ffffff\"\ntoon = false\n"
-                                 "outline = { width_px = 3, taper_px = 0, colour = \"#ff0000\", drawn = \"marks.csv\" }\n");
+  folder.write("scene.toml",
+               test::drawn_scene +
+                   "colour = \"#ffffff\"\ntoon = false\n"
+                   "outline = { width_px = 3, taper_px = 0, colour = \"#ff0000\", drawn = \"marks.csv\" }\n");
   const test::CliResult rendered =
       test::run_rinkaku(folder, "render scene.toml -o out.mkv --codec ffv1 --layers layers");
   ASSERT_EQ(rendered.status, 0) << rendered.err;

@@ -182,7 +182,7 @@ double ink_beside_px(const Layer& layer, int row) {
 }
 
 // A square before a wall: its line has all of its width where the wall is far behind; close before the wall, it is as
-// wide as a pixel and, by `lean` = 3, a third of the step; with no lean it is never thinner.
+// wide as a pixel and a half and, by `lean` = 3, a third of the step; with no lean it is never thinner.
 TEST_F(LineShape, LeansBackOverWhatLiesCloseBehind) {
   const View v = view(240, 240, 400);
   const mesh::Mesh leaf = square(), wall = square({0, 0, 1, 1});
@@ -192,8 +192,8 @@ TEST_F(LineShape, LeansBackOverWhatLiesCloseBehind) {
     float factor, lean;
     double width_px;
   };
-  for (const At& now : {At{400, 5, 3, 10}, At{12, 5, 3, 5}, At{6, 5, 3, 3}, At{0.6, 5, 3, 1.2}, At{400, 1, 3, 2},
-                        At{1.5, 1, 3, 1.5}, At{0.6, 1, 3, 1.2}, At{0.6, 1, 1, 1.6}, At{0.6, 1, 0, 2}, At{6, 5, 0, 10},
+  for (const At& now : {At{400, 5, 3, 10}, At{12, 5, 3, 5.5}, At{6, 5, 3, 3.5}, At{0.6, 5, 3, 1.7}, At{400, 1, 3, 2},
+                        At{0.9, 1, 3, 1.8}, At{0.6, 1, 3, 1.7}, At{0.3, 1, 1, 1.8}, At{0.3, 1, 0, 2}, At{6, 5, 0, 10},
                         At{0.6, 0.25f, 3, 0.5}}) {
     const std::vector<float> factors(leaf.point_count, now.factor);
     outline::HullOptions options;
@@ -212,10 +212,8 @@ TEST_F(LineShape, LeansBackOverWhatLiesCloseBehind) {
 // Over a wall that comes nearer to the line's end, the width follows it, and does not tremble with the pose.
 TEST_F(LineShape, LeansBackSteadily) {
   const View v = view(240, 240, 400);
-  // A strip of many edges, as widths are found at points.
-  const mesh::Mesh leaf = grid_mesh({3, 41, false, false}, [](double a, double b) {
-    return glm::dvec3(2 * a - 1, 2 * b - 1, 0);
-  });
+  // One long edge: that it is cut into pieces is what the width follows.
+  const mesh::Mesh leaf = square();
   const mesh::Mesh wall = square({0, 0, 1, 1});
   outline::HullOptions options;
   options.look.width_px = 6;
@@ -240,12 +238,50 @@ TEST_F(LineShape, LeansBackSteadily) {
       sums[row] += ink_px / frames, squares[row] += ink_px * ink_px / frames;
     }
   }
+  const auto variance = [&](std::size_t row) { return squares[row] - sums[row] * sums[row]; };
+  // An upright edge's coverage trembles by itself: as where the line has all of its width.
+  const double edge = variance(140);
   for (std::size_t row = 90; row < 150; ++row) {
     const double behind_px = 0.3 * std::abs(static_cast<double>(row) + 0.5 - 80);
-    EXPECT_NEAR(sums[row], std::min(1 + behind_px / 3, 6.0), 0.3) << row;
-    // 0.3 px along the wall are 0.03 px of width.
-    EXPECT_LT(std::sqrt(std::max(squares[row] - sums[row] * sums[row], 0.0)), 0.1) << row;
+    EXPECT_NEAR(sums[row], std::min(1.5 + behind_px / 3, 6.0), 0.3) << row;
+    // 0.3 px along the wall are 0.03 px of width; pixels of depth are a tenth of a pixel of width apart.
+    EXPECT_LT(std::sqrt(std::max(variance(row) - edge, 0.0)), 0.1) << row;
   }
+}
+
+// A slice of depth ends where no wall is: a line that comes close to the cut keeps its width.
+TEST_F(LineShape, DoesNotLeanBackFromACut) {
+  const View v = view(240, 240, 400);
+  constexpr double distance = 10, pixel_m = distance / 400;
+  passes::LayerRenderer renderer(scene_of(lined(square(), moved(0.001, 0.002, distance), 6)), picture_of(v));
+  const double cuts_m[] = {distance + 0.5 * pixel_m};
+  std::array<Layer, 2> layers;
+  ASSERT_TRUE(renderer.draw(v, cuts_m, layers));
+  Layer whole;
+  ASSERT_TRUE(renderer.draw(v, whole));
+  EXPECT_EQ(layers[0].rgba, whole.rgba);
+}
+
+// More vertices than before, and the same as of a renderer that saw nothing else.
+TEST_F(LineShape, LeansBackAsEverAfterComingNearer) {
+  const View v = view(240, 240, 400);
+  const mesh::Mesh wall = square({0, 0, 1, 1});
+  const auto scene = [&] {
+    std::vector<passes::StyledObject> objects = scene_of(lined(sphere(4), scaled(0.5), 6));
+    objects.push_back(toon(wall, moved(0, 0, 0.2) * scaled(30)));
+    return objects;
+  };
+  const auto from = [&v](double distance) {
+    View seen = v;
+    seen.camera_from_world.translation_m = {0, 0, distance};
+    return seen;
+  };
+  passes::LayerRenderer moving(scene(), picture_of(v)), fresh(scene(), picture_of(v));
+  Layer near, expected;
+  ASSERT_TRUE(moving.draw(from(60), near));
+  ASSERT_TRUE(moving.draw(from(2), near));
+  ASSERT_TRUE(fresh.draw(from(2), expected));
+  EXPECT_EQ(near.rgba, expected.rgba);
 }
 
 // How wide a line is must not tremble when the pose does: by 0.3 px and what turns the object by as much.

@@ -57,7 +57,9 @@ cv::Mat premultiplied(const cv::Mat& picture) {
 
 // RINKAKU_WRITE_GOLDEN=1 writes the golden frames anew, after somebody has looked at them.
 TEST(FluffyDesk, LooksAsItDidWhenSomebodyLooked) {
-  cv::setNumThreads(1);  // how OpenCV synchronises them ThreadSanitizer can't see
+  // How OpenCV synchronises its threads ThreadSanitizer can't see.
+  const int threads = cv::getNumThreads();
+  cv::setNumThreads(1);
   const ShotFolder folder;
   for (const int number : {40, 120}) {
     RenderOptions options{.output = "out.mkv", .codec = "ffv1", .layers_folder = folder.file("layers")};
@@ -87,6 +89,7 @@ TEST(FluffyDesk, LooksAsItDidWhenSomebodyLooked) {
     // Drawn anew by the same driver nothing differs; a tuft in the wrong place differs by a hundred in some pixels.
     EXPECT_LT(std::max({mean[0], mean[1], mean[2], mean[3]}), 1.0) << number;
   }
+  cv::setNumThreads(threads);
 }
 
 TEST(FluffyDesk, PlateOutsideTheFluffIsBitIdentical) {

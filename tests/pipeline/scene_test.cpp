@@ -129,13 +129,14 @@ TEST(Scene, ReadsEveryKeyOfAnObject) {
 
 TEST(Scene, TakesLinesThatFollowCurvature) {
   const SceneFolder folder;
-  const OutlineScene line = *folder
-                                 .read(object +
-                                       "outline = { width_px = 2, method = \"curvature\", curvature = \"largest\", "
-                                       "sign = \"concave\", exaggeration = 4, saturation = 0.5, curve = 2, "
-                                       "min_factor = 0.1, smoothing = 0, lean = 1.5, taper_px = 7, thickness_part = 0.75 }\n")
-                                 .objects[0]
-                                 .outline;
+  const OutlineScene line =
+      *folder
+           .read(object +
+                 "outline = { width_px = 2, method = \"curvature\", curvature = \"largest\", "
+                 "sign = \"concave\", exaggeration = 4, saturation = 0.5, curve = 2, "
+                 "min_factor = 0.1, smoothing = 0, lean = 1.5, taper_px = 7, thickness_part = 0.75 }\n")
+           .objects[0]
+           .outline;
   EXPECT_EQ(line.method, OutlineScene::Method::Curvature);
   EXPECT_EQ(line.curvature, OutlineScene::Curvature::Largest);
   EXPECT_EQ(line.sign, OutlineScene::Sign::Concave);

@@ -48,7 +48,6 @@ const std::vector<Tunable>& object_tunables() {
        "method",
        "curvature"},
       {"outline", "taper_px", "taper", Kind::Number, 0, 100, 6},
-      {"outline", "lean", "leans back", Kind::Number, 0, 10, 3, false, {}, "method", "uniform"},
       {"fluffy", "scale", "fluff size", Kind::Number, 1.01, 3, 1.1},
       {"fluffy", "threshold", "fluff threshold", Kind::Number, 0, 1, 0.5},
       {"fluffy", "angle_deg", "fluff band", Kind::Number, 1, 179, 70},

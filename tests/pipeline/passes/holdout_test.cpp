@@ -67,7 +67,8 @@ TEST_F(Holdout, CutsLinesAsWell) {
   const View v = view(96, 96, 90);
   auto lined = [&] {
     passes::StyledObject styled = toon(sphere(4), moved(0, 0, 6));
-    styled.passes.push_back(std::make_unique<outline::HullPass>(*styled.object, outline::HullOptions{.look = {.width_px = 4}}));
+    styled.passes.push_back(
+        std::make_unique<outline::HullPass>(*styled.object, outline::HullOptions{.look = {.width_px = 4}}));
     return styled;
   };
   // The right half of the picture is hidden.
