@@ -5,6 +5,7 @@
 
 #include "pipeline/frame/error.h"
 #include "pipeline/gl/count.h"
+#include "pipeline/gl/texture.h"
 
 namespace rinkaku::gl {
 namespace {
@@ -14,16 +15,6 @@ RenderbufferHandle storage(GLenum format, int width_px, int height_px) {
   glCreateRenderbuffers(1, &name);
   RenderbufferHandle handle(name);
   glNamedRenderbufferStorage(name, format, width_px, height_px);
-  return handle;
-}
-
-TextureHandle depth_storage(int width_px, int height_px) {
-  GLuint name = 0;
-  glCreateTextures(GL_TEXTURE_2D, 1, &name);
-  TextureHandle handle(name);
-  glTextureStorage2D(name, 1, GL_DEPTH_COMPONENT32F, width_px, height_px);
-  glTextureParameteri(name, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
-  glTextureParameteri(name, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
   return handle;
 }
 
@@ -54,7 +45,7 @@ void Target::begin(int width_px, int height_px, double depth) {
     colour_ = storage(kind_ == Kind::Picture ? GL_RGBA8 : GL_R8, width_px_, height_px_);
     glNamedFramebufferRenderbuffer(framebuffer_.name(), GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, colour_.name());
     if (kind_ == Kind::Picture) {
-      depth_ = depth_storage(width_px_, height_px_);
+      depth_ = texel_storage(GL_DEPTH_COMPONENT32F, width_px_, height_px_);
       glNamedFramebufferTexture(framebuffer_.name(), GL_DEPTH_ATTACHMENT, depth_.name(), 0);
     }
     if (glCheckNamedFramebufferStatus(framebuffer_.name(), GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE) {

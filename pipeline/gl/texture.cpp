@@ -60,6 +60,18 @@ void upload(GLuint name, const Texels& texels) {
 
 }  // namespace
 
+TextureHandle texel_storage(GLenum format, int width_px, int height_px) {
+  GLuint name = 0;
+  glCreateTextures(GL_TEXTURE_2D, 1, &name);
+  TextureHandle handle(name);
+  glTextureStorage2D(name, 1, format, width_px, height_px);
+  glTextureParameteri(name, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+  glTextureParameteri(name, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+  glTextureParameteri(name, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+  glTextureParameteri(name, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+  return handle;
+}
+
 Texture::Texture(int width_px, int height_px, std::span<const std::uint8_t> rgba) : handle_(create()) {
   GLint most_px = 0;
   glGetIntegerv(GL_MAX_TEXTURE_SIZE, &most_px);

@@ -7,6 +7,10 @@
 
 namespace rinkaku::gl {
 
+/// Memory for a texture of one level that is sampled texel by texel, without filter; what lies beside it is as its
+/// border.
+TextureHandle texel_storage(GLenum format, int width_px, int height_px);
+
 /// An RGBA8 picture to sample from: mipmapped, trilinear, repeating.
 class Texture {
  public:

@@ -6,21 +6,10 @@
 
 #include "pipeline/frame/error.h"
 #include "pipeline/gl/count.h"
+#include "pipeline/gl/texture.h"
 
 namespace rinkaku::gl {
 namespace {
-
-TextureHandle storage(GLenum format, int width_px, int height_px) {
-  GLuint name = 0;
-  glCreateTextures(GL_TEXTURE_2D, 1, &name);
-  TextureHandle handle(name);
-  glTextureStorage2D(name, 1, format, width_px, height_px);
-  glTextureParameteri(name, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
-  glTextureParameteri(name, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
-  glTextureParameteri(name, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
-  glTextureParameteri(name, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
-  return handle;
-}
 
 // An object that comes nearer does not ask for new storage every frame.
 int rounded(int px) { return (px + 127) / 128 * 128; }
@@ -48,12 +37,12 @@ void TextureTarget::make_storage(int width_px, int height_px) {
   width_px_ = std::min(most, std::max(width_px_, rounded(width_px)));
   height_px_ = std::min(most, std::max(height_px_, rounded(height_px)));
   for (std::size_t i = 0; i < formats_.size(); ++i) {
-    colours_[i] = storage(formats_[i], width_px_, height_px_);
+    colours_[i] = texel_storage(formats_[i], width_px_, height_px_);
     glNamedFramebufferTexture(framebuffer_.name(), static_cast<GLenum>(GL_COLOR_ATTACHMENT0 + i), colours_[i].name(),
                               0);
   }
   if (has_depth_) {
-    depth_ = storage(GL_DEPTH_COMPONENT32F, width_px_, height_px_);
+    depth_ = texel_storage(GL_DEPTH_COMPONENT32F, width_px_, height_px_);
     glNamedFramebufferTexture(framebuffer_.name(), GL_DEPTH_ATTACHMENT, depth_.name(), 0);
   }
   if (glCheckNamedFramebufferStatus(framebuffer_.name(), GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE) {
