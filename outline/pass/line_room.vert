@@ -8,7 +8,7 @@ uniform sampler2D depths;  // near_m / Z of what was drawn so far, as large as t
 uniform mat4 clip_from_object;
 uniform vec2 viewport_px;
 uniform float near_m;
-uniform float empty_depth;  // where nothing was drawn
+uniform float empty_depth;     // where nothing was drawn
 uniform float focal_px;        // the camera's
 uniform float lean;            // pixels of depth that a pixel more of width takes
 uniform float largest_factor;  // LineStrips::largest_factor
@@ -18,7 +18,7 @@ const float any_width_px = 1e9;
 const float free_px = 1.5;      // of its width a line always has so much: some pixel across it is mostly ink
 const float spacing_px = 0.75;  // of the places looked at
 const int most_places = 64;     // 48 px; wider lines are looked at more sparsely
-const float hides_px = -0.5;   // of depth: what lies nearer than the contour by more hides the line itself
+const float hides_px = -0.5;    // of depth: what lies nearer than the contour by more hides the line itself
 
 float room_at(vec4 clip, vec2 way, float whole_px) {
   float depth_m = clip.w;
