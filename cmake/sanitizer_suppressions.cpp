@@ -1,10 +1,13 @@
 // What the sanitizers report of other people's libraries, which are not built with them.
 
-#ifdef __SANITIZE_ADDRESS__
-// Libraries stay loaded: what a driver keeps to the end would else count as leaked, and by nobody.
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+// Libraries stay loaded: what a driver keeps to the end would else count as leaked, and by nobody; and no library that
+// a suppression was matched against may be unloaded, as Mesa's is with its last display.
 extern "C" int dlclose(void* library);
 extern "C" int dlclose(void*) { return 0; }
+#endif
 
+#ifdef __SANITIZE_ADDRESS__
 extern "C" const char* __lsan_default_suppressions();
 extern "C" const char* __lsan_default_suppressions() {
   return "leak:libfontconfig.so\n";  // under the printed boards' letters; keeps what it allocates to the end
@@ -15,9 +18,6 @@ extern "C" const char* __lsan_default_suppressions() {
 // LLVM, under Mesa, holds more locks at once than the detector of deadlocks can count, which then ends the program.
 extern "C" const char* __tsan_default_options();
 extern "C" const char* __tsan_default_options() { return "detect_deadlocks=0"; }
-
-// A library that a suppression was matched against must not be unloaded: Mesa's is with its last display.
-extern "C" int dlclose(void*) { return 0; }
 
 extern "C" const char* __tsan_default_suppressions();
 extern "C" const char* __tsan_default_suppressions() {
